@@ -20,7 +20,7 @@ def _texture(side=512):
 
 
 def _scene(eye, target=(0, 0, 0)):
-    scene = e3d.Scene(background=(10, 12, 20), ambient=(0.1, 0.1, 0.1))
+    scene = e3d.Scene(background=(10, 12, 20), ambient=e3d.linear(0.1, 0.1, 0.1))
     camera = e3d.PerspectiveCamera(yfov=0.9, znear=0.05, zfar=100.0)
     scene.add(camera, pose=e3d.look_at(eye, target, (0, 1, 0)))
     scene.add(e3d.DirectionalLight(direction=(-0.4, -0.7, -0.6)))
@@ -63,11 +63,11 @@ def lights():
     """A shiny sphere under eight point lights."""
     scene = _scene((0, 0, 1.15))
     sphere = e3d.icosphere(0.5, 5)
-    sphere.materials = [e3d.Material(specular=(0.6, 0.6, 0.6), shininess=60.0)]
+    sphere.materials = [e3d.Material(specular=e3d.linear(0.6, 0.6, 0.6), shininess=60.0)]
     scene.add(sphere)
     rng = np.random.default_rng(6)
     for position in rng.uniform(-1.5, 1.5, (8, 3)):
-        light = e3d.PointLight(color=tuple(rng.uniform(0.2, 1, 3)), intensity=0.1 * np.pi)
+        light = e3d.PointLight(color=e3d.linear(rng.uniform(0.2, 1, 3)), intensity=0.1 * np.pi)
         scene.add(light, translation=tuple(position + (0, 0, 1)))
     return scene
 

@@ -66,12 +66,12 @@ class Spheres:
         self.mesh = e3d.uv_sphere(1.0, (20, 11))
 
     def instanced(self):
-        scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+        scene = e3d.Scene(ambient=e3d.linear(0.2, 0.2, 0.2))
         scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
         return scene, scene.add(e3d.InstancedMesh(self.mesh, self.poses)).object
 
     def nodes(self):
-        scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+        scene = e3d.Scene(ambient=e3d.linear(0.2, 0.2, 0.2))
         scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
         return scene, [scene.add(self.mesh, translation=pose[:3]) for pose in self.poses]
 

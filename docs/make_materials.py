@@ -24,12 +24,12 @@ INTRODUCTION = """\
 Made from the rows of `engine/model/materials/material.py` by `docs/make_materials.py`. Each
 parameter is a keyword of `Material(...)`, and an attribute that checks what is assigned to it. With
 `metallic` or `roughness` a material is physically based, as glTF 2.0 has it. Without, it is lit by
-Lambert's and Blinn's and Phong's models. Colours of floats are linear light, those of integers
-sRGB.
+Lambert's and Blinn's and Phong's models. Colours are display values: names, `"#rrggbb"`,
+integers 0..255 or floats 0..1; `e3d.linear(…)` are linear light.
 
     import engine3d as e3d
 
-    brass = e3d.Material(color=(0.91, 0.78, 0.42), metallic=1.0, roughness=0.3, anisotropy=0.6)
+    brass = e3d.Material(color=(245, 229, 173), metallic=1.0, roughness=0.3, anisotropy=0.6)
     brass.roughness = 0.4
 
 ## Numbers and colours

@@ -24,6 +24,7 @@ _PUBLIC = {
     "InvalidArgumentError": "errors",
     "Mesh": "model.geometry.mesh",
     "Material": "model.materials.material",
+    "linear": "model.materials.linear_colors",
     "Texture": "model.materials.textures",
     "PlacedTexture": "model.materials.textures",
     "Environment": "model.environments.environment",

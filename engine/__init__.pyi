@@ -36,6 +36,7 @@ from .io.writing.scene_saving import save_scene as save_scene
 from .model.environments.environment import Environment as Environment
 from .model.geometry.mesh import Mesh as Mesh
 from .model.geometry.values import Values as Values
+from .model.materials.linear_colors import linear as linear
 from .model.materials.material import Material as Material
 from .model.materials.textures import PlacedTexture as PlacedTexture
 from .model.materials.textures import Texture as Texture

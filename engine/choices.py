@@ -114,8 +114,10 @@ PointerShape = Literal[
 ]
 EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
 
-#: Three numbers: floats are linear light, integers from 0 to 255 sRGB.
+#: Three numbers: integers from 0 to 255 and floats from 0 to 1 are display values (sRGB), those of
+#: `engine3d.linear` linear light.
 Color: TypeAlias = tuple[float, float, float]
 #: A colour, or four numbers: the last is alpha, from 0 to 1, or to 255 with integers.
 SurfaceColor: TypeAlias = Color | tuple[float, float, float, float]
-ColorLike: TypeAlias = Union[Sequence[float], "NDArray[Any]"]
+#: A colour, a name of CSS, or ``"#rgb"``, ``"#rrggbb"`` or ``"#rrggbbaa"``.
+ColorLike: TypeAlias = Union[str, Sequence[float], "NDArray[Any]"]

@@ -119,7 +119,7 @@ def from_above(places, width, height):
 
 def build_scene():
     """Return the map as a scene of the engine; materials are named by their letters."""
-    scene = e3d.Scene(background=(150, 180, 210), ambient=(0.35, 0.35, 0.4))
+    scene = e3d.Scene(background=(150, 180, 210), ambient=e3d.linear(0.35, 0.35, 0.4))
     scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.3), intensity=0.8 * math.pi))
     materials = {name: e3d.Material(color=color, name=name) for name, color in COLORS.items()}
     for row, letters in enumerate(MAP):

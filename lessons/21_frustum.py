@@ -119,7 +119,7 @@ def by_corners(planes, low, high):
 
 def draw(chunks, width, height, eye=EYE, color_of=lambda number: (255, 255, 255)):
     """Return the engine's picture of some chunks, and its counts."""
-    scene = e3d.Scene(background=(30, 33, 40), ambient=(0.25, 0.25, 0.3))
+    scene = e3d.Scene(background=(30, 33, 40), ambient=e3d.linear(0.25, 0.25, 0.3))
     scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.5), intensity=0.6 * math.pi))
     for number, (mesh, _, _) in enumerate(chunks):
         mesh.materials = [e3d.Material(color=color_of(number))]

@@ -98,15 +98,15 @@ def seek(system, days):
 
 
 BALLS = {
-    "sun ball": (1.0, 0.75, 0.2),
-    "earth ball": (0.25, 0.5, 1.0),
-    "moon": (0.75, 0.75, 0.72),
+    "sun ball": e3d.linear(1.0, 0.75, 0.2),
+    "earth ball": e3d.linear(0.25, 0.5, 1.0),
+    "moon": e3d.linear(0.75, 0.75, 0.72),
 }
 
 
 def draw(poses, width, height):
     """Return the engine's picture of balls at the given world matrices."""
-    scene = e3d.Scene(background=(8, 9, 16), ambient=(0.05, 0.05, 0.08))
+    scene = e3d.Scene(background=(8, 9, 16), ambient=e3d.linear(0.05, 0.05, 0.08))
     scene.add(e3d.PointLight(intensity=9.0 * math.pi), translation=(0.0, 0.0, 0.0))
     for name, pose in poses.items():
         ball = e3d.uv_sphere(1.0, (24, 12))

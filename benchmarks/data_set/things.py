@@ -25,7 +25,7 @@ HALF = 2.0  # of the ground's side
 def build(scene, generator, most=6):
     """Fill a scene; return which node is what, and the camera."""
     scene.background = e3d.Gradient((150, 180, 215), (225, 230, 235))
-    scene.ambient = (0.25, 0.25, 0.25)
+    scene.ambient = e3d.linear(0.25, 0.25, 0.25)
     add_ground(scene, generator.fork("ground"))
     count = generator.fork("count").integer(3, most + 1)
     radii = [generator.fork("size", number).uniform(0.25, 0.55) for number in range(count)]

@@ -7,9 +7,9 @@ A scene holds meshes, lights and a camera. Without a camera, the whole scene is 
 
 import engine3d as e3d
 
-scene = e3d.Scene(background=(226, 232, 240), ambient=(0.25, 0.27, 0.30))
+scene = e3d.Scene(background=(226, 232, 240), ambient=(137, 142, 149))
 ring = e3d.torus(1.0, 0.4)
-ring.materials = [e3d.Material(color=(0.9, 0.45, 0.2))]
+ring.materials = [e3d.Material(color=(243, 179, 124))]
 scene.add(ring, rotation=e3d.linalg.euler_to_quaternion((0.6, 0.3, 0.0)))
 scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.6)))
 

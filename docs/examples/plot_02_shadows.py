@@ -14,12 +14,12 @@ import engine3d as e3d
 
 def pillars(shadow):
     """A row of pillars in the evening sun."""
-    scene = e3d.Scene(background=(200, 214, 232), ambient=(0.30, 0.32, 0.38))
+    scene = e3d.Scene(background=(200, 214, 232), ambient=(149, 153, 166))
     scene.add(e3d.plane(14.0))
     for x in (-3.0, -1.0, 1.0, 3.0):
         scene.add(e3d.cylinder(0.3, 2.0, 48), translation=(x, 1.0, 0.0))
     scene.add(
-        e3d.DirectionalLight((-0.8, -0.7, 0.45), (1.0, 0.92, 0.78), 0.7 * math.pi, shadow=shadow)
+        e3d.DirectionalLight((-0.8, -0.7, 0.45), (255, 246, 229), 0.7 * math.pi, shadow=shadow)
     )
     scene.add(e3d.PerspectiveCamera(0.6), pose=e3d.look_at((2.0, 4.5, 10.0), (-0.8, 0.4, 0.5)))
     return e3d.render(scene, size=(480, 270), samples=4, antialiasing="msaa")

@@ -12,7 +12,7 @@ import numpy as np
 
 import engine3d as e3d
 
-scene = e3d.Scene(background=(230, 233, 238), ambient=(0.3, 0.3, 0.3))
+scene = e3d.Scene(background=(230, 233, 238), ambient=(149, 149, 149))
 scene.add(e3d.plane(8.0), name="floor")
 scene.add(e3d.uv_sphere(0.8), name="ball", translation=(-0.9, 0.8, 0.0))
 block = scene.add(e3d.box(1.2), name="box", translation=(1.0, 0.6, 0.4))

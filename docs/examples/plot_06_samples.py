@@ -12,7 +12,7 @@ import numpy as np
 
 import engine3d as e3d
 
-scene = e3d.Scene(background=(250, 250, 250), ambient=(0.2, 0.2, 0.2))
+scene = e3d.Scene(background=(250, 250, 250), ambient=(124, 124, 124))
 scene.add(e3d.box(1.0), rotation=e3d.linalg.euler_to_quaternion((0.5, 0.6, 0.2)))
 scene.add(e3d.DirectionalLight((-0.5, -0.8, -0.6), intensity=0.6 * math.pi))
 

@@ -62,9 +62,11 @@ def stand(scene, name, *, at, height, turn=0.0, up="y"):
 
 def add_daylight(scene):
     """A warm sun from the upper right and a faint cool light from the other side."""
-    scene.ambient = (0.20, 0.23, 0.27)
-    scene.add(e3d.DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.92 * math.pi))
-    scene.add(e3d.DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18 * math.pi))
+    scene.ambient = e3d.linear(0.20, 0.23, 0.27)
+    scene.add(
+        e3d.DirectionalLight((-0.55, -0.75, -0.55), e3d.linear(1.0, 0.94, 0.82), 0.92 * math.pi)
+    )
+    scene.add(e3d.DirectionalLight((0.7, -0.25, 0.5), e3d.linear(0.65, 0.80, 1.0), 0.18 * math.pi))
 
 
 def draw(scene, camera, size, **options) -> np.ndarray:
@@ -176,34 +178,39 @@ def materials() -> np.ndarray:
     """Physically based balls in a hall, behind panes of coloured glass that cross."""
     rows = (
         [
-            {"color": (1.0, 0.77, 0.34), "metallic": 1.0, "roughness": r}
+            {"color": e3d.linear(1.0, 0.77, 0.34), "metallic": 1.0, "roughness": r}
             for r in (0.05, 0.2, 0.4, 0.6, 0.9)
         ],
         [
-            {"color": (0.72, 0.05, 0.04), "metallic": 0.0, "roughness": r}
+            {"color": e3d.linear(0.72, 0.05, 0.04), "metallic": 0.0, "roughness": r}
             for r in (0.05, 0.2, 0.4, 0.6, 0.9)
         ],
         [
-            {"color": (0.05, 0.08, 0.3), "roughness": 0.6, "clearcoat": 1.0, "metallic": 0.3},
             {
-                "color": (0.02, 0.1, 0.06),
+                "color": e3d.linear(0.05, 0.08, 0.3),
+                "roughness": 0.6,
+                "clearcoat": 1.0,
+                "metallic": 0.3,
+            },
+            {
+                "color": e3d.linear(0.02, 0.1, 0.06),
                 "roughness": 0.9,
                 "metallic": 0.0,
-                "sheen_color": (0.3, 0.8, 0.5),
+                "sheen_color": e3d.linear(0.3, 0.8, 0.5),
                 "sheen_roughness": 0.4,
             },
             {
-                "color": (0.9, 0.9, 0.92),
+                "color": e3d.linear(0.9, 0.9, 0.92),
                 "metallic": 1.0,
                 "roughness": 0.15,
                 "normal_texture": ripples(),
             },
-            {"color": (0.9, 0.45, 0.3), "metallic": 1.0, "roughness": 0.3},
+            {"color": e3d.linear(0.9, 0.45, 0.3), "metallic": 1.0, "roughness": 0.3},
             {
-                "color": (0.02, 0.02, 0.02),
+                "color": e3d.linear(0.02, 0.02, 0.02),
                 "metallic": 0.0,
                 "roughness": 0.1,
-                "emissive": (0.1, 0.5, 0.9),
+                "emissive": e3d.linear(0.1, 0.5, 0.9),
             },
         ],
     )
@@ -229,7 +236,7 @@ def materials() -> np.ndarray:
             translation=(2.0, 0.0, 0.75),
             rotation=linalg.quaternion_from_axis_angle((0, 1, 0), angle),
         )
-    scene.add(e3d.DirectionalLight((-0.5, -0.7, -0.6), (1.0, 0.95, 0.85), 1.5))
+    scene.add(e3d.DirectionalLight((-0.5, -0.7, -0.6), e3d.linear(1.0, 0.95, 0.85), 1.5))
     return draw(scene, look((0.9, 0.5, 9.5), (0.05, 0.0, 0.0)), (1120, 660))
 
 

@@ -1,8 +1,8 @@
 """Conversion of meshes from and to the optional package trimesh.
 
 In: trimesh geometry, or a `Mesh`. Out: the other. trimesh is imported only to create its objects;
-its geometry is recognised by attributes. Material colours count as linear light, because its
-loaders copy them from files; vertex colours are sRGB bytes on both sides.
+its geometry is recognised by attributes. Factors of physically based materials are linear light, as
+in glTF; other colours of materials are display values. Vertex colours are sRGB bytes on both sides.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from ..errors import InvalidArgumentError
 from ..model.geometry.mesh import Mesh
 from ..model.geometry.posing import posed_mesh
 from ..model.materials.colors import linear_color, srgb_bytes
+from ..model.materials.linear_colors import LinearColor
 from ..model.materials.material import Material, textures_of
 from ..model.materials.textures import Texture
 from .formats.images import check_image_size, made_pixels
@@ -141,18 +142,21 @@ def _material(material: Any, textures: _Textures) -> Material:
     }
     return Material(
         name=str(getattr(material, "name", None) or ""),
-        color=(1.0, 1.0, 1.0) if is_default else _linear(factor),
+        color=(1.0, 1.0, 1.0)
+        if is_default
+        else _color(factor, hasattr(material, "baseColorFactor")),
         texture=None if image is None else textures.get(image),
-        emissive=(0.0, 0.0, 0.0) if emissive is None else _linear(emissive),
+        emissive=(0.0, 0.0, 0.0) if emissive is None else _color(emissive, is_linear=True),
         two_sided=bool(getattr(material, "doubleSided", False)),
         extras=extras,
     )
 
 
-def _linear(color: Any) -> tuple[float, ...]:
+def _color(color: Any, is_linear: bool) -> tuple[float, ...]:
     color = np.asarray(color)
     scale = 255.0 if color.dtype.kind in "iu" else 1.0
-    return tuple(float(c) / scale for c in np.nan_to_num(color[:3]).clip(min=0).tolist())
+    parts = [float(c) / scale for c in np.nan_to_num(color[:3]).clip(min=0).tolist()]
+    return LinearColor(parts) if is_linear else tuple(min(part, 1.0) for part in parts)
 
 
 class _Textures:

@@ -21,6 +21,8 @@ from .._native.images import encode_png
 from ..base.numbers import as_array, floats, real, shown
 from ..base.validation import choose, flag
 from ..errors import InvalidArgumentError
+from ..model.materials.colors import eight_bit_or_linear, holds_colors, srgb_bytes
+from ..model.materials.display_colors import rgba_codes
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -380,8 +382,8 @@ def _given_pixels(*args: Any) -> NDArray[np.uint8]:
 def _color_bytes(color: Color | NDArray[np.uint8], what: str = "color") -> bytes:
     try:
         rgba = bytes(tuple(color))
-    except (TypeError, ValueError):
-        rgba = b""
+    except (TypeError, ValueError):  # a word, or floats
+        rgba = rgba_codes(color, what)
     if len(rgba) == 3:
         return rgba + b"\xff"
     if len(rgba) != 4:
@@ -393,13 +395,13 @@ def _color_bytes(color: Color | NDArray[np.uint8], what: str = "color") -> bytes
 
 def _colors_bytes(color: Color | NDArray[np.uint8], count: int) -> bytes | NDArray[np.uint8]:
     """Return 4 bytes for all primitives, or 4 for each of them."""
-    colors = as_array(color, "color")
-    if colors.ndim != 2:
+    if isinstance(color, str) or as_array(color, "color").ndim != 2 and not holds_colors(color):
         return _color_bytes(color)
-    if colors.dtype != np.uint8 or colors.shape not in ((count, 3), (count, 4)):
+    colors = srgb_bytes(eight_bit_or_linear(color, "color"))
+    if colors.shape not in ((count, 3), (count, 4)):
         raise InvalidArgumentError(
-            f"color for {count} primitives is one, or a ({count}, 3) or ({count}, 4) uint8 array, "
-            f"not {colors.shape} {colors.dtype}"
+            f"color for {count} primitives is one, or ({count}, 3) or ({count}, 4) numbers, "
+            f"not {colors.shape}"
         )
     rgba = np.full((count, 4), 255, np.uint8)
     rgba[:, : colors.shape[1]] = colors

@@ -167,7 +167,7 @@ class RenderOptions:
         far to near), or none.
     line_width, point_size : float
         In ``size_unit``, above 0 and up to 256.
-    line_color : sequence of 3 numbers
+    line_color : str or sequence of 3 numbers
         Colour of the wireframe.
     hidden_lines : bool
         With ``wireframe="only"``: also show edges hidden behind faces.

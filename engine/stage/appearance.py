@@ -9,14 +9,15 @@ import math
 from collections.abc import Sequence
 from dataclasses import fields
 from types import SimpleNamespace
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar, cast, get_args
 
 from ..base import linalg
 from ..base.calls import refuse_unknown
-from ..choices import Mode, OutputMode
+from ..choices import Color, Mode, OutputMode
 from ..model.environments.environment import Environment
 from ..model.geometry.mesh import Mesh
 from ..model.materials.colors import linear_color
+from ..model.materials.linear_colors import linear
 from ..model.scene.gradients import Gradient
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
@@ -88,8 +89,7 @@ def contrasting(background: Background) -> tuple[int, int, int]:
         return LIGHT
     if isinstance(background, Gradient):
         ends = linear_color(background.top) + linear_color(background.bottom)
-        red, green, blue = (float(component) / 2 for component in ends)
-        background = red, green, blue
+        background = cast(Color, linear(ends / 2))
     here, dark, light = (
         float(linalg.dot(linear_color(color), _LUMINANCE)) + 0.05
         for color in (background, DARK, LIGHT)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..base import linalg
+from ..model.materials.linear_colors import linear
 from ..model.scene.lights import (
     LIGHTS,
     WHITE_INTENSITY,
@@ -73,7 +74,7 @@ class Lighting:
         intensity *= WHITE_INTENSITY
         for name, lights in SETUPS.items():
             self._nodes[name] = [
-                staged.beside.add(DirectionalLight(direction, color, strength * intensity))
+                staged.beside.add(DirectionalLight(direction, linear(color), strength * intensity))
                 for direction, color, strength in lights
             ]
         self.names = tuple(self._nodes)

@@ -16,6 +16,8 @@ from ..errors import Engine3DWarning
 from ..io.reading.documents import Document
 from ..io.reading.sources import File
 from ..model.geometry.mesh import Mesh
+from ..model.materials.colors import linear_color
+from ..model.materials.linear_colors import LinearColor
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.lights import LIGHTS
 from ..model.scene.orbiting import home_axes
@@ -112,9 +114,10 @@ def _share_range(opened: list[tuple[ViewedScene, Document]], numbers: Numbers | 
         color_by(viewed, document, shared)
 
 
-def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:
+def _brightest(viewed_scenes: list[ViewedScene]) -> LinearColor:
     """Return the brightest ambient light among the models."""
-    return tuple(np.max([viewed.scene.ambient for viewed in viewed_scenes], axis=0).tolist())
+    lights = [linear_color(viewed.scene.ambient) for viewed in viewed_scenes]
+    return LinearColor(np.max(lights, axis=0).tolist())
 
 
 def _add(scene: Scene, viewed: ViewedScene, pose: np.ndarray) -> None:

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from ..base import linalg
 from ..choices import FrameCull
 from ..model.geometry.mesh import Mesh
+from ..model.materials.linear_colors import linear
 from ..model.materials.material import Material, textures_of
 from ..model.materials.textures import Texture
 from ..model.scene.ambient_lights import HemisphereLight
@@ -30,7 +31,7 @@ from .overlays.theme import DARK, LIGHT, Theme
 from .views.viewpoint import Sphere
 
 #: Ambient light from above and from below.
-_SKY, _GROUND = (0.30, 0.32, 0.36), (0.18, 0.17, 0.16)
+_SKY, _GROUND = linear(0.30, 0.32, 0.36), linear(0.18, 0.17, 0.16)
 #: The required contrast between a model's outline and its background, as mean difference in 8-bit
 #: codes: for faces, which are shaded, and for points and lines, which are all outline.
 _CONTRAST, _THIN_CONTRAST = 5.0, 60.0

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..model.geometry.mesh import Mesh
 from ..model.geometry.vertex_attributes import attributes_of
+from ..model.materials.linear_colors import floats_are_linear
 from ..model.materials.material import Material
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
@@ -159,19 +160,20 @@ def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
     mesh = mesh.with_creases()  # the remaining faces keep their normals
     edges = mesh.edge_visible
     attributes: dict[str, Any] = attributes_of(mesh)
-    return Mesh(
-        mesh.positions,
-        mesh.faces[kept],
-        normals=mesh.normals,
-        materials=mesh.materials,
-        material_ids=mesh.material_ids[kept],
-        lines=mesh.lines,
-        points=mesh.points,
-        edge_visible=None if edges is None else edges[kept],
-        position_ids=mesh.position_ids,
-        joints=mesh.joints,
-        weights=mesh.weights,
-        morph_targets=mesh.morph_targets,
-        name=mesh.name,
-        **attributes,
-    )
+    with floats_are_linear():
+        return Mesh(
+            mesh.positions,
+            mesh.faces[kept],
+            normals=mesh.normals,
+            materials=mesh.materials,
+            material_ids=mesh.material_ids[kept],
+            lines=mesh.lines,
+            points=mesh.points,
+            edge_visible=None if edges is None else edges[kept],
+            position_ids=mesh.position_ids,
+            joints=mesh.joints,
+            weights=mesh.weights,
+            morph_targets=mesh.morph_targets,
+            name=mesh.name,
+            **attributes,
+        )

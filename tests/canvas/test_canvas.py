@@ -84,7 +84,7 @@ def test_read_only_pixels_are_refused():
 
 
 @pytest.mark.parametrize(
-    "color", [5, None, "red", (1, 2), (1, 2, 3, 4, 5), (256, 0, 0), (-1, 0, 0), (0.5, 0, 0)]
+    "color", [5, None, "redd", (1, 2), (1, 2, 3, 4, 5), (256, 0, 0), (-1, 0, 0), (1.5, 0, 0)]
 )
 def test_wrong_colors(color):
     canvas = Canvas(4, 4)
@@ -115,7 +115,7 @@ def test_wrong_arguments():
         lambda: canvas.lines(np.zeros((3, 2)), white),
         lambda: canvas.triangles(np.zeros((3, 2)), white),
         lambda: canvas.points(np.zeros((3, 2)), np.zeros((2, 4), np.uint8)),
-        lambda: canvas.points(np.zeros((3, 2)), np.zeros((3, 4))),
+        lambda: canvas.points(np.zeros((3, 2)), np.full((3, 4), 1.5)),
         lambda: canvas.text(0, 0, "x", white, scale=0),
         lambda: canvas.text(0, 0, "x", white, scale=1.5),
         lambda: canvas.text(0, 0, "x", white, scale=10**9),

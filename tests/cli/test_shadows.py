@@ -29,7 +29,7 @@ def test_maps_darken_what_lies_behind(tmp_path):
 
 
 def test_none_takes_the_shadows_of_a_file_away(tmp_path):
-    scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+    scene = e3d.Scene(ambient=e3d.linear(0.2, 0.2, 0.2))
     scene.add(e3d.plane((4.0, 4.0)))
     scene.add(e3d.box(0.5), translation=(0, 1, 0))
     scene.add(e3d.DirectionalLight((0.2, -1, 0.1), shadow=True))

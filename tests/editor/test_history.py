@@ -260,7 +260,7 @@ def test_the_modified_flag_follows_what_is_undone():
     history, scene = document.history, document.scene
 
     def step():
-        document.do(SetValues([scene], {"ambient": (0.5, 0.5, 0.5)}), drag="one")
+        document.do(SetValues([scene], {"ambient": e3d.linear(0.5, 0.5, 0.5)}), drag="one")
 
     assert not document.is_modified
     step()

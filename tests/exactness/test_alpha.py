@@ -269,7 +269,7 @@ def test_very_many_layers_take_little_memory():
     corners = np.concatenate([np.array(CORNERS) + (0, 0, z) for z in heights])
     corners[::4, 2] -= 0.05  # all groups of depths overlap
     faces = np.concatenate([[[0, 1, 2], [0, 2, 3]] + 4 * np.array(k) for k in range(count)])
-    glass = e3d.Material(color=(0.5, 0.5, 0.5, 0.01), alpha_mode="blend")
+    glass = e3d.Material(color=e3d.linear(0.5, 0.5, 0.5, 0.01), alpha_mode="blend")
     mesh = e3d.Mesh(corners, faces, materials=[glass])
     before = _resident()
     color = draw([mesh], e3d.backends()[-1], size=(256, 256), threads=1).color

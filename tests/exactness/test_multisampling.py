@@ -186,7 +186,7 @@ def test_what_hides_a_part_of_a_pixel_does_not_move_the_alpha_of_what_is_behind(
     mask = e3d.Material(
         texture=texture, alpha_mode="mask", alpha_cutoff=0.5, two_sided=True, unlit=True
     )
-    solid = e3d.Material(color=(0.2, 0.4, 0.6), two_sided=True, unlit=True)
+    solid = e3d.Material(color=e3d.linear(0.2, 0.4, 0.6), two_sided=True, unlit=True)
     scene = e3d.Scene(background=(0, 0, 0))
     for depth, material in ((0.0, solid), (0.5, mask)):
         points = np.full((200, 3, 3), depth, np.float32)
@@ -213,7 +213,7 @@ def test_numbers_of_samples_that_methods_lack():
 
 def crowd():
     """Boxes behind boxes, so that rounds leave some out, some of them blended or masked."""
-    scene = e3d.Scene(background=None, ambient=(0.3, 0.3, 0.3))
+    scene = e3d.Scene(background=None, ambient=e3d.linear(0.3, 0.3, 0.3))
     rng = np.random.default_rng(3)
     for mode, count in (("opaque", 90), ("mask", 12), ("blend", 12)):
         material = e3d.Material(color=(*rng.random(3), 0.6), alpha_mode=mode)

@@ -250,7 +250,7 @@ def test_samples_are_averaged_in_linear_light(backend):
 @pytest.mark.parametrize(("distance", "lit"), [(0.49, True), (0.5, False), (0.51, False)])
 @pytest.mark.parametrize("falloff", ["inverse_square", "window"])
 def test_a_point_light_ends_at_its_range(backend, falloff, distance, lit):
-    scene = e3d.Scene(ambient=(0.25, 0.25, 0.25))
+    scene = e3d.Scene(ambient=e3d.linear(0.25, 0.25, 0.25))
     light = e3d.PointLight(intensity=100.0 * math.pi, range=0.5, falloff=falloff)
     scene.add(light, translation=(0, 0, distance))
     frame = draw([square(color=(1.0, 1.0, 1.0))], (1, 1), backend, scene=scene, mode="lit")
@@ -263,11 +263,15 @@ def test_a_point_light_ends_at_its_range(backend, falloff, distance, lit):
 def test_light_follows_the_formula(backend, shininess):
     """Diffuse and Blinn-Phong light of a tilted direction, against float64."""
     towards = np.array([0.48, 0.6, 0.64])
-    scene = e3d.Scene(ambient=(0.02, 0.02, 0.02))
+    scene = e3d.Scene(ambient=e3d.linear(0.02, 0.02, 0.02))
     scene.add(
-        e3d.DirectionalLight(direction=-towards, color=(0.9, 0.5, 0.2), intensity=0.5 * math.pi)
+        e3d.DirectionalLight(
+            direction=-towards, color=e3d.linear(0.9, 0.5, 0.2), intensity=0.5 * math.pi
+        )
     )
-    mesh = square(color=(0.3, 0.6, 0.9), specular=(0.2, 0.4, 0.8), shininess=shininess)
+    mesh = square(
+        color=e3d.linear(0.3, 0.6, 0.9), specular=e3d.linear(0.2, 0.4, 0.8), shininess=shininess
+    )
     frame = draw([mesh], (2, 2), backend, scene=scene, mode="lit")
     half = (towards + (0, 0, 1)) / np.linalg.norm(towards + (0, 0, 1))
     light = np.array([0.9, 0.5, 0.2]) * 0.5

@@ -5,7 +5,7 @@ import sys
 import numpy as np
 import pytest
 
-from engine3d import PerspectiveCamera, Scene, linalg, look_at, render, uv_sphere
+from engine3d import PerspectiveCamera, Scene, linalg, linear, look_at, render, uv_sphere
 from engine3d.errors import InvalidArgumentError
 from engine3d.extras.lod import simplify
 from engine3d.model.geometry.mesh import Mesh
@@ -90,7 +90,7 @@ def test_positions_must_be_an_array_of_points():
 def test_colors_of_three_components_get_alpha():
     mesh = square(colors=np.full((4, 3), 7, np.uint8))
     assert mesh.colors[0].tolist() == [7, 7, 7, 255]
-    mesh = square(colors=np.full((4, 3), 0.5))
+    mesh = square(colors=linear(np.full((4, 3), 0.5)))
     assert mesh.colors.dtype == np.float32
     assert mesh.colors[0].tolist() == [0.5, 0.5, 0.5, 1]
 
@@ -227,7 +227,7 @@ def test_concatenation_moves_indices_and_fills_in():
 
 def test_concatenating_bytes_and_floats_gives_linear_light():
     first = square(colors=np.full((4, 4), 255, np.uint8))
-    second = square(colors=np.full((4, 3), 0.5, np.float32))
+    second = square(colors=linear(np.full((4, 3), 0.5, np.float32)))
     colors = Mesh.concatenate([first, second]).colors
     assert colors.dtype == np.float32
     assert colors[[0, 4]].tolist() == [[1, 1, 1, 1], [0.5, 0.5, 0.5, 1]]

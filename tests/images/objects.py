@@ -8,7 +8,9 @@ import engine3d as e3d
 from engine3d import linalg
 
 SUN = (-0.4, -0.8, -0.45)
-CORAL, SAND, TEAL = (0.85, 0.33, 0.24), (0.76, 0.66, 0.47), (0.12, 0.52, 0.55)
+CORAL = e3d.linear(0.85, 0.33, 0.24)
+SAND = e3d.linear(0.76, 0.66, 0.47)
+TEAL = e3d.linear(0.12, 0.52, 0.55)
 
 
 def checkerboard(side=32, squares=4, **options):
@@ -41,10 +43,13 @@ def floor(size=3.0, **options):
 
 def still_life(scene=None, lights=True):
     """A floor, a shiny sphere, a box and a torus, under the sun and a warm lamp."""
-    scene = scene or e3d.Scene(background=(30, 38, 54), ambient=(0.12, 0.12, 0.14))
+    scene = scene or e3d.Scene(background=(30, 38, 54), ambient=e3d.linear(0.12, 0.12, 0.14))
     scene.add(floor(), name="floor")
     ball = with_material(
-        e3d.uv_sphere(0.4, (24, 12)), color=CORAL, specular=(0.5, 0.5, 0.5), shininess=40.0
+        e3d.uv_sphere(0.4, (24, 12)),
+        color=CORAL,
+        specular=e3d.linear(0.5, 0.5, 0.5),
+        shininess=40.0,
     )
     scene.add(ball, name="ball", translation=(-0.55, 0.4, 0.1))
     box = with_material(e3d.box(0.6), color=SAND)
@@ -54,7 +59,7 @@ def still_life(scene=None, lights=True):
     scene.add(ring, name="ring", translation=(0.45, 0.12, 0.6))
     if lights:
         scene.add(e3d.DirectionalLight(SUN, intensity=0.7 * math.pi))
-        lamp = e3d.PointLight(color=(1, 0.8, 0.5), intensity=0.5 * math.pi, range=4.0)
+        lamp = e3d.PointLight(color=e3d.linear(1, 0.8, 0.5), intensity=0.5 * math.pi, range=4.0)
         scene.add(lamp, translation=(-1.0, 1.2, 1.0))
     return scene
 
@@ -62,7 +67,7 @@ def still_life(scene=None, lights=True):
 def one_object(mesh, pose=None, **scene_options):
     """A scene of one mesh under the sun."""
     scene = e3d.Scene(
-        **{"background": (24, 28, 36), "ambient": (0.15, 0.15, 0.15), **scene_options}
+        **{"background": (24, 28, 36), "ambient": e3d.linear(0.15, 0.15, 0.15), **scene_options}
     )
     scene.add(mesh, pose=pose)
     scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi))

@@ -42,26 +42,28 @@ def dots():
 
 
 def seen_through(background=(30, 38, 54)):
-    scene = e3d.Scene(background=background, ambient=(0.2, 0.2, 0.22))
-    scene.add(pane((*CORAL, 0.5), alpha_mode="blend"), translation=(0.2, 0, 0))
+    scene = e3d.Scene(background=background, ambient=e3d.linear(0.2, 0.2, 0.22))
+    scene.add(pane(e3d.linear(*CORAL, 0.5), alpha_mode="blend"), translation=(0.2, 0, 0))
     scene.add(floor(), name="floor")
     ball = with_material(
         e3d.uv_sphere(0.4, (24, 12)),
         color=WHITE_GLASS,
-        specular=(0.9, 0.9, 0.9),
+        specular=e3d.linear(0.9, 0.9, 0.9),
         shininess=60.0,
         two_sided=True,
         alpha_mode="blend",
     )
     scene.add(ball, name="ball", translation=(-0.55, 0.5, 0.1))
-    scene.add(pane((*TEAL, 0.6), 1, alpha_mode="blend"), translation=(0.2, 0, 0))
+    scene.add(pane(e3d.linear(*TEAL, 0.6), 1, alpha_mode="blend"), translation=(0.2, 0, 0))
     scene.add(
         pane((1, 1, 1), size=0.9, texture=leaf(), alpha_mode="mask"), translation=(-0.6, 0, 0)
     )
     scene.add(dots())
     wire = e3d.Mesh([(-1, 1, 0.6), (1, 0.2, 0.6), (0.6, 1.1, 0.7)], lines=[(0, 1)], points=[2])
-    scene.add(with_material(wire, color=(1.0, 1.0, 0.2, 0.5), alpha_mode="blend"))
-    scene.add(with_material(e3d.box(0.4), color=(0.9, 0.9, 0.3)), translation=(0.5, 0.2, -0.4))
+    scene.add(with_material(wire, color=e3d.linear(1.0, 1.0, 0.2, 0.5), alpha_mode="blend"))
+    scene.add(
+        with_material(e3d.box(0.4), color=e3d.linear(0.9, 0.9, 0.3)), translation=(0.5, 0.2, -0.4)
+    )
     scene.add(e3d.DirectionalLight(direction=(-0.4, -0.8, -0.45)))
     return scene
 
@@ -77,7 +79,9 @@ def leaves(kind, color_space):
     for number, (wrap, mode) in enumerate(
         (wrap, mode) for wrap in ("repeat", "clamp", "mirror") for mode in ("mask", "blend")
     ):
-        mesh = pane((1.0, 1.0, 1.0, 0.9), alpha_mode=mode, texture=leaf(filter=kind, wrap=wrap))
+        mesh = pane(
+            e3d.linear(1.0, 1.0, 1.0, 0.9), alpha_mode=mode, texture=leaf(filter=kind, wrap=wrap)
+        )
         mesh.uvs = mesh.uvs * 2.5 - 0.7
         scene.add(mesh, translation=(0.7 * number - 1.6, -0.2, 0.5 - 0.5 * number))
     options = {"mode": "unlit"}

@@ -15,21 +15,29 @@ def matter(mesh, **material):
     return mesh
 
 
-def corner(ambient=(0.7, 0.75, 0.8)):
+def corner(ambient=e3d.linear(0.7, 0.75, 0.8)):
     """A floor and a wall with things on them, of all kinds of materials."""
-    scene = e3d.Scene(ambient=ambient, background=(0.1, 0.12, 0.15))
-    scene.add(matter(e3d.box((3, 0.04, 3)), color=(0.9, 0.85, 0.8)), translation=(0, -0.02, 0))
-    wall = matter(e3d.box((3, 1.5, 0.04)), color=(0.8, 0.9, 0.8), metallic=0.0, roughness=0.8)
+    scene = e3d.Scene(ambient=ambient, background=e3d.linear(0.1, 0.12, 0.15))
+    scene.add(
+        matter(e3d.box((3, 0.04, 3)), color=e3d.linear(0.9, 0.85, 0.8)), translation=(0, -0.02, 0)
+    )
+    wall = matter(
+        e3d.box((3, 1.5, 0.04)), color=e3d.linear(0.8, 0.9, 0.8), metallic=0.0, roughness=0.8
+    )
     scene.add(wall, translation=(0, 0.7, -1))
-    scene.add(matter(e3d.box(0.5), color=(0.9, 0.3, 0.2)), translation=(0.4, 0.25, -0.5))
+    scene.add(matter(e3d.box(0.5), color=e3d.linear(0.9, 0.3, 0.2)), translation=(0.4, 0.25, -0.5))
     scene.add(e3d.uv_sphere(0.3, (24, 12)), translation=(-0.5, 0.3, -0.3))
-    gold = matter(e3d.uv_sphere(0.2, (24, 12)), color=(1, 0.8, 0.3), metallic=1.0, roughness=0.3)
+    gold = matter(
+        e3d.uv_sphere(0.2, (24, 12)), color=e3d.linear(1, 0.8, 0.3), metallic=1.0, roughness=0.3
+    )
     scene.add(gold, translation=(0.1, 0.2, 0.3))
-    velvet = {"sheen_color": (0.4, 0.1, 0.5), "clearcoat": 0.7, "roughness": 0.6}
+    velvet = {"sheen_color": e3d.linear(0.4, 0.1, 0.5), "clearcoat": 0.7, "roughness": 0.6}
     scene.add(matter(e3d.box(0.3), **velvet), translation=(0.8, 0.15, 0.3))
-    glass = matter(e3d.uv_sphere(0.25, (24, 12)), color=(0.2, 0.5, 1, 0.5), alpha_mode="blend")
+    glass = matter(
+        e3d.uv_sphere(0.25, (24, 12)), color=e3d.linear(0.2, 0.5, 1, 0.5), alpha_mode="blend"
+    )
     scene.add(glass, translation=(-0.5, 0.25, 0.5))
-    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), (1, 0.95, 0.9), 0.3 * np.pi))
+    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), e3d.linear(1, 0.95, 0.9), 0.3 * np.pi))
     return scene
 
 
@@ -40,9 +48,11 @@ def occluded(camera=None, samples=1, color_space="srgb", **options):
 
 
 def around(samples=1, probe=True, **options):
-    scene = corner((0.05, 0.05, 0.05))
+    scene = corner(e3d.linear(0.05, 0.05, 0.05))
     tilted = linalg.rotation_z(0.4)
-    scene.add(e3d.HemisphereLight((0.5, 0.7, 1.0), (0.35, 0.25, 0.15)), pose=tilted)
+    scene.add(
+        e3d.HemisphereLight(e3d.linear(0.5, 0.7, 1.0), e3d.linear(0.35, 0.25, 0.15)), pose=tilted
+    )
     if probe:
         numbers = np.sin(np.arange(27.0)).reshape(9, 3) * 0.4
         scene.add(e3d.LightProbe(numbers, 0.8), pose=linalg.rotation_x(0.7))

@@ -13,10 +13,14 @@ SUN = e3d.DirectionalLight((-0.5, -0.8, -0.35), intensity=0.8 * np.pi, shadow="e
 def lamp(scene, kind, **options):
     """One light of a kind that casts exact shadows."""
     if kind == "point":
-        light = e3d.PointLight((1, 0.9, 0.7), intensity=1.2 * np.pi, shadow="exact", **options)
+        light = e3d.PointLight(
+            e3d.linear(1, 0.9, 0.7), intensity=1.2 * np.pi, shadow="exact", **options
+        )
         scene.add(light, translation=(0.5, 1.6, 0.8))
     elif kind == "spot":
-        light = e3d.SpotLight((0.8, 0.9, 1), intensity=8 * np.pi, shadow="exact", **options)
+        light = e3d.SpotLight(
+            e3d.linear(0.8, 0.9, 1), intensity=8 * np.pi, shadow="exact", **options
+        )
         scene.add(light, pose=e3d.look_at((-1.5, 2.4, 1.8), (0, 0.2, 0)))
     else:
         scene.add(SUN)
@@ -24,18 +28,20 @@ def lamp(scene, kind, **options):
 
 def table(kinds, samples=1, physical=False, **options):
     """Things on a floor, and what no shadow falls on, what casts none, and what is not in view."""
-    scene = e3d.Scene(background=(20, 24, 34), ambient=(0.08, 0.08, 0.1))
-    surface = {"metallic": 0.2, "roughness": 0.5} if physical else {"specular": (0.4, 0.4, 0.4)}
-    scene.add(floor(4.0, color=(0.7, 0.7, 0.7), **surface))
+    scene = e3d.Scene(background=(20, 24, 34), ambient=e3d.linear(0.08, 0.08, 0.1))
+    surface = (
+        {"metallic": 0.2, "roughness": 0.5} if physical else {"specular": e3d.linear(0.4, 0.4, 0.4)}
+    )
+    scene.add(floor(4.0, color=e3d.linear(0.7, 0.7, 0.7), **surface))
     scene.add(
         with_material(e3d.box(0.5), color=CORAL, **surface),
         translation=(-0.3, 0.25, 0.1),
         euler=(0, 0.5, 0),
     )
     scene.add(with_material(e3d.uv_sphere(0.3), color=TEAL), translation=(0.5, 0.3, 0.3))
-    ring = with_material(e3d.torus(), color=(0.3, 0.8, 0.4), **surface)
+    ring = with_material(e3d.torus(), color=e3d.linear(0.3, 0.8, 0.4), **surface)
     scene.add(ring, translation=(0.1, 0.8, -0.4), euler=(1.1, 0.3, 0), scale=(0.4, 0.4, 0.4))
-    ball = with_material(e3d.icosphere(0.2, 2), color=(0.9, 0.9, 0.2))
+    ball = with_material(e3d.icosphere(0.2, 2), color=e3d.linear(0.9, 0.9, 0.2))
     scene.add(ball, translation=(-0.9, 0.2, 0.5), cast_shadows=False)
     scene.add(ball, translation=(-0.7, 0.2, -0.3), receive_shadows=False)
     scene.add(ball, translation=(1.6, 3.0, 1.8), scale=(2, 2, 2))  # above the picture
@@ -57,8 +63,8 @@ variant("exact_shadow_unlit", table, ["point"], mode="unlit")
 
 def foliage(filter_kind):
     """Holes let light through, panes that are seen through count where they are half opaque."""
-    scene = e3d.Scene(background=(90, 110, 140), ambient=(0.15, 0.15, 0.15))
-    scene.add(floor(4.0, color=(0.8, 0.8, 0.75)))
+    scene = e3d.Scene(background=(90, 110, 140), ambient=e3d.linear(0.15, 0.15, 0.15))
+    scene.add(floor(4.0, color=e3d.linear(0.8, 0.8, 0.75)))
     shapes = [("mask", "repeat", 0.6), ("mask", "mirror", 0.5), ("blend", "clamp", 0.5)]
     for k, (mode, wrap, cutoff) in enumerate(shapes):
         texture = leaf(filter=filter_kind, wrap=wrap)
@@ -67,7 +73,7 @@ def foliage(filter_kind):
         mesh.colors = np.array([(255, 255, 255, 255), (255, 255, 255, 160)] * 2, np.uint8)
         scene.add(mesh, translation=(0.8 * k - 0.8, 0, 0.1 * k), euler=(0.1, 0.4, 0))
     for k, alpha in enumerate((0.3, 0.7)):
-        glass = pane((0.4, 0.8, 1, alpha), 1, size=0.6, alpha_mode="blend")
+        glass = pane(e3d.linear(0.4, 0.8, 1, alpha), 1, size=0.6, alpha_mode="blend")
         scene.add(glass, translation=(0.6 * k - 0.2, 0, 0.7))
     scene.add(e3d.DirectionalLight((-0.3, -0.7, -0.6), intensity=0.4 * np.pi, shadow="exact"))
     lamp(scene, "point", range=3.0)
@@ -90,10 +96,10 @@ def shards(kind, seed):
     corners[1::50, 2] = corners[1::50, 1]
     corners = np.round(corners * 64) / 64 if seed % 2 else corners  # rays through corners and edges
     mesh = e3d.Mesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
-    mesh = with_material(mesh, color=(0.8, 0.8, 0.8), two_sided=True, flat_shading=True)
-    scene = e3d.Scene(background=(0, 0, 0), ambient=(0.1, 0.1, 0.1))
+    mesh = with_material(mesh, color=e3d.linear(0.8, 0.8, 0.8), two_sided=True, flat_shading=True)
+    scene = e3d.Scene(background=(0, 0, 0), ambient=e3d.linear(0.1, 0.1, 0.1))
     scene.add(mesh)
-    scene.add(floor(6.0, color=(0.8, 0.7, 0.6)), translation=(0, -1, 0))
+    scene.add(floor(6.0, color=e3d.linear(0.8, 0.7, 0.6)), translation=(0, -1, 0))
     if kind == "sun":
         direction = (0, -1, 0) if seed % 2 else rng.normal(size=3)
         scene.add(e3d.DirectionalLight(direction, shadow="exact"))
@@ -112,8 +118,8 @@ for _seed in range(4):
 
 def crowd(batching):
     """Instances and nodes that share a mesh, at mirrored, stretched and tiny poses."""
-    scene = e3d.Scene(background=(30, 30, 40), ambient=(0.1, 0.1, 0.1))
-    scene.add(floor(4.0, color=(0.7, 0.7, 0.7)))
+    scene = e3d.Scene(background=(30, 30, 40), ambient=e3d.linear(0.1, 0.1, 0.1))
+    scene.add(floor(4.0, color=e3d.linear(0.7, 0.7, 0.7)))
     mesh = with_material(e3d.cylinder(), color=CORAL)
     poses = np.array([(0.4 * k - 1.2, 0.2, -0.5 + 0.1 * k, 0.1 + 0.03 * k) for k in range(7)])
     scene.add(e3d.InstancedMesh(mesh, poses.astype(np.float32)))

@@ -43,7 +43,7 @@ def anisotropic_maps():
         texture=checkerboard(anisotropy=16),
         metallic_roughness_texture=of(4),
         normal_texture=of(8, -0.5),
-        emissive=(0.2, 0.2, 0.2),
+        emissive=e3d.linear(0.2, 0.2, 0.2),
         emissive_texture=e3d.PlacedTexture(of(16), scale=(2.0, 3.0), rotation=0.4),
         occlusion_texture=of(1),
     )
@@ -52,7 +52,7 @@ def anisotropic_maps():
     ground.materials = [material]
     scene = e3d.Scene(background=(30, 40, 60))
     scene.add(ground)
-    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), (1, 0.95, 0.9), 2.0))
+    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), e3d.linear(1, 0.95, 0.9), 2.0))
     return Picture(scene, camera_at((0.5, 0.8, 3.0), (0, 0, 0)))
 
 
@@ -106,7 +106,7 @@ def round_lines_cut_by_the_near_plane():
     material = e3d.Material(color=(1, 1, 1, 0.5), alpha_mode="blend")
     scene = e3d.Scene(background=(20, 24, 30))
     scene.add(e3d.Mesh(ends, lines=lines, materials=[material]))
-    scene.add(with_material(e3d.plane((2, 2)), color=(0.3, 0.5, 0.4)))
+    scene.add(with_material(e3d.plane((2, 2)), color=e3d.linear(0.3, 0.5, 0.4)))
     options = {"line_width": 7.0, "line_shape": "round"}
     return Picture(scene, camera_at((0.3, 0.6, 1.0), (0, 0, 0)), options=options)
 

@@ -15,7 +15,7 @@ def welded(mesh, **options):
 
 
 def creased(angle):
-    scene = e3d.Scene((30, 34, 40), ambient=(0.2, 0.2, 0.2))
+    scene = e3d.Scene((30, 34, 40), ambient=e3d.linear(0.2, 0.2, 0.2))
     scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
     shapes = e3d.box((0.9, 0.9, 0.9)), e3d.cylinder(0.45, 0.9), e3d.icosphere(0.5, 1)
     for number, mesh in enumerate(shapes):
@@ -37,7 +37,7 @@ def creases_of_ten_degrees():
 @picture
 def inside_out_and_open():
     """Both sides, but the backs of what is closed: an inside-out ball, a bowl, a box."""
-    scene = e3d.Scene((30, 34, 40), ambient=(0.2, 0.2, 0.2))
+    scene = e3d.Scene((30, 34, 40), ambient=e3d.linear(0.2, 0.2, 0.2))
     scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
     ball = e3d.uv_sphere(0.5, (24, 12))
     low = ball.positions[ball.faces][..., 1].max(axis=1) < 0.2
@@ -61,7 +61,7 @@ def reversed_depth_wireframe():
 
 @picture
 def a_tiny_model():
-    scene = e3d.Scene((30, 34, 40), ambient=(0.3, 0.3, 0.3))
+    scene = e3d.Scene((30, 34, 40), ambient=e3d.linear(0.3, 0.3, 0.3))
     scene.add(e3d.torus(1.0, 0.4), scale=1e-9)
     scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
     return Picture(scene)
@@ -69,7 +69,7 @@ def a_tiny_model():
 
 @picture
 def a_model_on_a_map():
-    scene = e3d.Scene((30, 34, 40), ambient=(0.3, 0.3, 0.3))
+    scene = e3d.Scene((30, 34, 40), ambient=e3d.linear(0.3, 0.3, 0.3))
     scene.add(e3d.torus(1.0, 0.4), translation=(500_000.0, 4_649_776.0, 120.0))
     scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
     return Picture(scene)

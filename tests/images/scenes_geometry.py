@@ -26,7 +26,7 @@ def spiral(count):
     turn = [(math.cos(12 * s), math.sin(12 * s)) for s in t]
     radius = 0.2 + 0.7 * t
     x, z = (radius * np.array([both[k] for both in turn]) for k in range(2))
-    colors = np.stack([t, 1 - t, 0.5 + 0 * t, 1 + 0 * t], axis=1)
+    colors = e3d.linear(np.stack([t, 1 - t, 0.5 + 0 * t, 1 + 0 * t], axis=1))
     return np.stack([x, 0.8 * t - 0.4, z], axis=1), colors
 
 
@@ -64,7 +64,9 @@ def lines_near_and_behind():
     """Lines that pass the eye: cut where they leave the view."""
     rng = np.random.default_rng(3)
     ends = rng.uniform(-4, 4, (60, 3))
-    mesh = e3d.Mesh(ends, lines=np.arange(60).reshape(-1, 2), colors=rng.random((60, 4)))
+    mesh = e3d.Mesh(
+        ends, lines=np.arange(60).reshape(-1, 2), colors=e3d.linear(rng.random((60, 4)))
+    )
     options = {"line_width": 2.0, "mode": "unlit"}
     return Picture(one_object(mesh), camera_at((0, 0, 0.5), (0, 0, -1)), options=options)
 
@@ -80,7 +82,7 @@ def faces_lines_and_points():
         normals=ball.normals,
         lines=np.stack([np.arange(0, count - 9, 5), np.arange(9, count, 5)], axis=1),
         points=np.arange(0, count, 3),
-        materials=[e3d.Material(color=(0.3, 0.5, 0.8))],
+        materials=[e3d.Material(color=e3d.linear(0.3, 0.5, 0.8))],
     )
     options = {"point_size": 4.0, "line_width": 1.5}
     return Picture(one_object(mesh), TOP_VIEW, options=options)
@@ -112,7 +114,7 @@ def instances(kind, mode="lit"):
     offsets = (offsets - (4.5, 0, 4.5)) * 0.28
     if kind == "offsets":
         poses = np.concatenate([offsets, rng.uniform(0.2, 0.4, (100, 1))], axis=1)
-        colors = rng.uniform(0.2, 1, (100, 3))
+        colors = e3d.linear(rng.uniform(0.2, 1, (100, 3)))
     else:
         poses = np.array([pose_of(offset, k) for k, offset in enumerate(offsets)])
         colors = rng.integers(50, 256, (100, 4), np.uint8)
@@ -137,7 +139,9 @@ def mirrored_poses():
     """Negative scales turn facing round: each copy looks whole, and is lit from the same side."""
     scene = e3d.Scene(background=(24, 28, 36))
     for k, scale in enumerate([(1, 1, 1), (-1, 1, 1), (1, -1, 1), (-1, -1, -1)]):
-        mesh = with_material(e3d.cylinder(0.3, 0.7, 16), color=(0.3 + 0.2 * k, 0.5, 0.8 - 0.2 * k))
+        mesh = with_material(
+            e3d.cylinder(0.3, 0.7, 16), color=e3d.linear(0.3 + 0.2 * k, 0.5, 0.8 - 0.2 * k)
+        )
         turn = linalg.quaternion_from_axis_angle((1, 0, 0.4), 0.9)
         scene.add(mesh, translation=(0.8 * k - 1.2, 0, 0), rotation=turn, scale=scale)
     scene.add(e3d.DirectionalLight((-0.5, -0.8, -0.4)))
@@ -162,7 +166,9 @@ def hierarchy():
     parent = None
     for k in range(6):
         offset = (-1.2, -0.5, 0) if parent is None else (0.55, 0, 0)
-        box = with_material(e3d.box((0.5, 0.2, 0.2)), color=(0.9 - 0.12 * k, 0.3, 0.2 + 0.12 * k))
+        box = with_material(
+            e3d.box((0.5, 0.2, 0.2)), color=e3d.linear(0.9 - 0.12 * k, 0.3, 0.2 + 0.12 * k)
+        )
         node = scene.add(box, parent=parent, translation=offset, rotation=turn, scale=0.95)
         parent = node
     node.visible = False
@@ -208,7 +214,7 @@ def coplanar():
     """The same square four times: the first in order shows, whatever draws it."""
     scene = e3d.Scene(background=(24, 28, 36))
     for k in range(4):
-        scene.add(with_material(floor(1.5), color=(0.2 + 0.2 * k, 0.8 - 0.2 * k, 0.3)))
+        scene.add(with_material(floor(1.5), color=e3d.linear(0.2 + 0.2 * k, 0.8 - 0.2 * k, 0.3)))
     return Picture(scene, TOP_VIEW)
 
 

@@ -99,7 +99,7 @@ def two_sided_inside():
 def two_sided_beside_culled():
     """One mesh of two materials, of which one shows its back."""
     ball = e3d.icosphere(0.9, 3)
-    ball.materials = [e3d.Material(color=(0.2, 0.5, 0.9)), e3d.Material(two_sided=True)]
+    ball.materials = [e3d.Material(color=e3d.linear(0.2, 0.5, 0.9)), e3d.Material(two_sided=True)]
     ball.material_ids = [face // 40 % 2 for face in range(len(ball.faces))]
     scene = e3d.Scene(background=(30, 38, 54))
     scene.add(ball)

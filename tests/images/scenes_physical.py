@@ -6,7 +6,7 @@ from images.picture import Picture, variant
 
 import engine3d as e3d
 
-AROUND = {"background": (0.02, 0.03, 0.05), "ambient": (0.2, 0.25, 0.3)}
+AROUND = {"background": e3d.linear(0.02, 0.03, 0.05), "ambient": e3d.linear(0.2, 0.25, 0.3)}
 
 
 def waves(width=16, height=16, **options):
@@ -38,12 +38,12 @@ def ball(tangents=False, **material):
 
 def add_lights(scene):
     """One of each kind and falloff."""
-    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), (1, 0.95, 0.9), 2.0))
-    cool = e3d.PointLight((0.6, 0.7, 1), 4, range=6, falloff="gltf")
+    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), e3d.linear(1, 0.95, 0.9), 2.0))
+    cool = e3d.PointLight(e3d.linear(0.6, 0.7, 1), 4, range=6, falloff="gltf")
     scene.add(cool, translation=(-2, 2, 2))
-    green = e3d.PointLight((0.6, 1, 0.7), 0.5, range=6, falloff="window")
+    green = e3d.PointLight(e3d.linear(0.6, 1, 0.7), 0.5, range=6, falloff="window")
     scene.add(green, translation=(2, -2, 2))
-    spot = e3d.SpotLight((1, 0.5, 0.5), 12, 9, inner_cone_angle=0.1, outer_cone_angle=0.4)
+    spot = e3d.SpotLight(e3d.linear(1, 0.5, 0.5), 12, 9, inner_cone_angle=0.1, outer_cone_angle=0.4)
     scene.add(spot, translation=(0, 0.2, 4))
 
 
@@ -60,7 +60,10 @@ def row(balls, exposure=0.0, **picture):
 
 def numbers(**picture):
     steps = [(m, r) for m in (0.0, 0.4, 1.0) for r in (0.0, 0.3, 0.7, 1.0)]
-    return row([ball(metallic=m, roughness=r, color=(0.9, 0.6, 0.3)) for m, r in steps], **picture)
+    return row(
+        [ball(metallic=m, roughness=r, color=e3d.linear(0.9, 0.6, 0.3)) for m, r in steps],
+        **picture,
+    )
 
 
 def maps(filter="trilinear", wrap="repeat", **picture):
@@ -78,7 +81,7 @@ def maps(filter="trilinear", wrap="repeat", **picture):
         "normal_texture": normals,
         "occlusion_texture": waves(8, 8, **kind),
         "occlusion_strength": 0.7,
-        "emissive": (0.3, 0.2, 0.1),
+        "emissive": e3d.linear(0.3, 0.2, 0.1),
         "emissive_strength": 1.5,
         "emissive_texture": placed,
     }
@@ -92,11 +95,15 @@ def maps(filter="trilinear", wrap="repeat", **picture):
         ball(**both, texture=placed, normal_texture=e3d.PlacedTexture(normals, **moved)),
         ball(**both, normal_texture=normals, clearcoat=0.8, clearcoat_roughness=0.6, **coat),
         ball(
-            metallic=0, color=(0.2, 0.2, 0.6), sheen_color=(1, 0.8, 0.6), sheen_roughness=1, **sheen
+            metallic=0,
+            color=e3d.linear(0.2, 0.2, 0.6),
+            sheen_color=e3d.linear(1, 0.8, 0.6),
+            sheen_roughness=1,
+            **sheen,
         ),
-        ball(metallic=0.1, specular_color=(1, 0.5, 0.2), ior=1.9, **specular),
+        ball(metallic=0.1, specular_color=e3d.linear(1, 0.5, 0.2), ior=1.9, **specular),
         ball(tangents=True, **many, **two_sided),
-        ball(specular=(0.5, 0.5, 0.5), normal_texture=normals, texture=placed),
+        ball(specular=e3d.linear(0.5, 0.5, 0.5), normal_texture=normals, texture=placed),
         ball(tangents=True, roughness=0.3, normal_texture=normals, clearcoat=0.5),
         ball(unlit=True, texture=placed),
     ]
@@ -106,14 +113,19 @@ def maps(filter="trilinear", wrap="repeat", **picture):
 def layers(**picture):
     """Coats and sheens without any texture; a material that reflects everything."""
     balls = [
-        ball(metallic=0, roughness=0.5, clearcoat=1, color=(0.8, 0.1, 0.1)),
+        ball(metallic=0, roughness=0.5, clearcoat=1, color=e3d.linear(0.8, 0.1, 0.1)),
         ball(metallic=1, roughness=0.5, clearcoat=0.6, clearcoat_roughness=0.4),
-        ball(roughness=0.6, metallic=0.2, clearcoat=1, emissive=(0.1, 0.3, 0.2)),
-        ball(metallic=0, sheen_color=(0.9, 0.7, 0.5), sheen_roughness=0.2, color=(0.1, 0, 0.2)),
-        ball(metallic=0, sheen_color=(0.9, 0.9, 0.9), sheen_roughness=0.9, clearcoat=0.5),
+        ball(roughness=0.6, metallic=0.2, clearcoat=1, emissive=e3d.linear(0.1, 0.3, 0.2)),
+        ball(
+            metallic=0,
+            sheen_color=e3d.linear(0.9, 0.7, 0.5),
+            sheen_roughness=0.2,
+            color=e3d.linear(0.1, 0, 0.2),
+        ),
+        ball(metallic=0, sheen_color=e3d.linear(0.9, 0.9, 0.9), sheen_roughness=0.9, clearcoat=0.5),
         ball(metallic=0, ior=0, roughness=0.3),
         ball(metallic=0, specular_intensity=0, roughness=0.3, flat_shading=True),
-        ball(unlit=True, metallic=0, color=(0.2, 0.7, 0.4)),
+        ball(unlit=True, metallic=0, color=e3d.linear(0.2, 0.7, 0.4)),
     ]
     return row(balls, exposure=-0.7, **picture)
 
@@ -137,10 +149,12 @@ def many_lights(count):
     rng = np.random.default_rng(4)
     scene = e3d.Scene(**AROUND)
     for k in range(3):
-        mesh = ball(metallic=k / 2, roughness=0.3, clearcoat=k % 2, sheen_color=(0.2 * k, 0, 0))
+        mesh = ball(
+            metallic=k / 2, roughness=0.3, clearcoat=k % 2, sheen_color=e3d.linear(0.2 * k, 0, 0)
+        )
         scene.add(mesh, translation=(k - 1, 0, 0))
     for place in rng.uniform(-2, 2, (count, 3)):
-        lamp = e3d.PointLight(rng.uniform(0, 1, 3), 0.2, range=1.5, falloff="gltf")
+        lamp = e3d.PointLight(e3d.linear(rng.uniform(0, 1, 3)), 0.2, range=1.5, falloff="gltf")
         scene.add(lamp, translation=place)
     return Picture(scene, camera_at((0, 0, 3.2), (0, 0, 0)))
 
@@ -148,11 +162,15 @@ def many_lights(count):
 def coloured(**options):
     """Vertex and instance colours; lines and points, which have nothing of this."""
     mesh = ball(roughness=0.4, metallic=0.8, normal_texture=bumps(), texture=waves())
-    mesh.colors = np.random.default_rng(5).uniform(0, 1, (len(mesh.positions), 4))
+    mesh.colors = e3d.linear(np.random.default_rng(5).uniform(0, 1, (len(mesh.positions), 4)))
     mesh.lines, mesh.points = [(0, 40), (20, 60)], [5, 50]
     poses = [(-1.1, 0, 0, 0.9), (0, 0.3, 0.2, -0.8), (1.1, 0, 0, 1.1)]
     scene = e3d.Scene(**AROUND)
-    scene.add(e3d.InstancedMesh(mesh, poses, colors=[(1.0, 0.5, 0.4), (0.5, 1, 0.6), (1, 1, 1)]))
+    scene.add(
+        e3d.InstancedMesh(
+            mesh, poses, colors=e3d.linear([(1.0, 0.5, 0.4), (0.5, 1, 0.6), (1, 1, 1)])
+        )
+    )
     add_lights(scene)
     options = {"line_width": 3, "point_size": 5, **options}
     return Picture(scene, camera_at((0, 0, 3.2), (0, 0, 0)), options=options)

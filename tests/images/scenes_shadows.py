@@ -13,10 +13,10 @@ SUN = (-0.6, -1.0, -0.45)
 
 def stage(size=6.0, **scene_options):
     """A floor, and on it a ball, a box that is turned, and a ring that stands."""
-    options = {"background": (24, 28, 36), "ambient": (0.2, 0.2, 0.22), **scene_options}
+    options = {"background": (24, 28, 36), "ambient": e3d.linear(0.2, 0.2, 0.22), **scene_options}
     scene = e3d.Scene(**options)
-    scene.add(floor(size, color=(0.8, 0.8, 0.78)), name="floor")
-    ball = with_material(e3d.icosphere(0.4, 3), color=CORAL, specular=(0.4, 0.4, 0.4))
+    scene.add(floor(size, color=e3d.linear(0.8, 0.8, 0.78)), name="floor")
+    ball = with_material(e3d.icosphere(0.4, 3), color=CORAL, specular=e3d.linear(0.4, 0.4, 0.4))
     scene.add(ball, name="ball", translation=(-0.6, 0.4, 0.2))
     box = with_material(e3d.box(0.7), color=SAND)
     scene.add(box, name="box", translation=(0.5, 0.35, -0.5), euler=(0, 0.6, 0))
@@ -51,8 +51,8 @@ variant("shadow_sun_forward", sun, shading="forward")
 @picture
 def shadow_cascades():
     """Columns in rows to far away: four maps, the finest near the camera."""
-    scene = e3d.Scene(background=(120, 140, 170), ambient=(0.25, 0.25, 0.3))
-    scene.add(floor(120.0, color=(0.7, 0.7, 0.66)))
+    scene = e3d.Scene(background=(120, 140, 170), ambient=e3d.linear(0.25, 0.25, 0.3))
+    scene.add(floor(120.0, color=e3d.linear(0.7, 0.7, 0.66)))
     column = with_material(e3d.cylinder(0.3, 2.0, 12), color=SAND)
     for row in range(24):
         for side in (-1.2, 1.4):
@@ -64,8 +64,8 @@ def shadow_cascades():
 
 def lamp(taps=3, radius=1.0, samples=1):
     """Twigs all around a lamp, so that shadows cross the seams of its cube."""
-    scene = stage(ambient=(0.05, 0.05, 0.06))
-    wall = floor(6.0, color=(0.7, 0.72, 0.8))
+    scene = stage(ambient=e3d.linear(0.05, 0.05, 0.06))
+    wall = floor(6.0, color=e3d.linear(0.7, 0.72, 0.8))
     scene.add(wall, translation=(-1.6, 0, 0), euler=(0, 0, -math.pi / 2))
     scene.add(wall, translation=(0, 0, -1.6), euler=(math.pi / 2, 0, 0))
     twig = with_material(e3d.box((0.03, 1.2, 0.03)), color=SAND)
@@ -88,7 +88,7 @@ variant("shadow_lamp_wide", lamp, 5, 3.3)
 
 
 def spot(angle, taps, reach=math.inf):
-    scene = stage(ambient=(0.06, 0.06, 0.08))
+    scene = stage(ambient=e3d.linear(0.06, 0.06, 0.08))
     light = e3d.SpotLight(
         intensity=14.0 * math.pi,
         range=reach,
@@ -125,7 +125,7 @@ def shadow_of_holes():
 
 def physical(samples=1):
     """Physically based: with a coat and normal maps, in an environment, under two lights."""
-    scene = e3d.Scene(background=(20, 20, 26), ambient=(0.02, 0.02, 0.02))
+    scene = e3d.Scene(background=(20, 20, 26), ambient=e3d.linear(0.02, 0.02, 0.02))
     scene.environment = e3d.Environment.studio()
     scene.environment_intensity = 0.25
     rng = np.random.default_rng(3)
@@ -133,9 +133,11 @@ def physical(samples=1):
     bumps[..., :2] = rng.integers(70, 186, (16, 16, 2))
     bumps = e3d.Texture(bumps, color_space="linear")
     plate = {"roughness": 0.7, "metallic": 0.0, "normal_texture": bumps}
-    scene.add(floor(6.0, color=(0.7, 0.7, 0.7), **plate))
+    scene.add(floor(6.0, color=e3d.linear(0.7, 0.7, 0.7), **plate))
     coat = {"clearcoat": 1.0, "clearcoat_roughness": 0.1, "roughness": 0.4, "metallic": 0.2}
-    ball = with_material(e3d.icosphere(0.5, 3), color=CORAL, sheen_color=(0.2, 0.2, 0.1), **coat)
+    ball = with_material(
+        e3d.icosphere(0.5, 3), color=CORAL, sheen_color=e3d.linear(0.2, 0.2, 0.1), **coat
+    )
     scene.add(ball, translation=(-0.3, 0.5, 0))
     scene.add(with_material(e3d.box(0.6), color=TEAL, **plate), translation=(0.7, 0.3, -0.4))
     maps = {"shadow": True, "shadow_map_size": 128}
@@ -154,7 +156,11 @@ def shadow_on_mapped_normals():
     bumps = np.full((8, 8, 3), 255, np.uint8)
     bumps[..., :2] = np.random.default_rng(5).integers(40, 216, (8, 8, 2))
     normals = e3d.Texture(bumps, color_space="linear")
-    tiles = {"texture": checkerboard(), "normal_texture": normals, "specular": (0.3, 0.3, 0.3)}
+    tiles = {
+        "texture": checkerboard(),
+        "normal_texture": normals,
+        "specular": e3d.linear(0.3, 0.3, 0.3),
+    }
     scene.add(floor(5.0, **tiles), translation=(0, 0.01, 0))
     scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow=True, shadow_map_size=256))
     return seen(scene)
@@ -163,8 +169,8 @@ def shadow_on_mapped_normals():
 @picture
 def shadow_switches():
     """Nodes of one mesh, with and without each switch; lines and points have no shadows."""
-    scene = e3d.Scene(background=(24, 28, 36), ambient=(0.2, 0.2, 0.2))
-    scene.add(floor(6.0, color=(0.8, 0.8, 0.8)))
+    scene = e3d.Scene(background=(24, 28, 36), ambient=e3d.linear(0.2, 0.2, 0.2))
+    scene.add(floor(6.0, color=e3d.linear(0.8, 0.8, 0.8)))
     post = with_material(e3d.box((0.3, 1.2, 0.3)), color=SAND)
     for number in range(4):
         cast, receive = number % 2 == 0, number // 2 == 0
@@ -181,9 +187,9 @@ def shadow_switches():
 @picture
 def shadows_of_many_lights():
     """Six lights, some with shadows: shading chooses the lights of each batch."""
-    scene = stage(ambient=(0.05, 0.05, 0.05))
+    scene = stage(ambient=e3d.linear(0.05, 0.05, 0.05))
     colors = [(1, 0.3, 0.2), (0.3, 1, 0.3), (0.3, 0.4, 1), (1, 1, 0.3), (0.3, 1, 1), (1, 0.4, 1)]
-    for number, color in enumerate(colors):
+    for number, color in enumerate(map(e3d.linear, colors)):
         angle = number * math.pi / 3
         light = e3d.PointLight(
             color,
@@ -201,7 +207,7 @@ def shadows_of_many_lights():
 def shadow_on_glass():
     """Blended surfaces receive shadows, too, and instances cast them."""
     scene = stage()
-    pane = {"color": (0.6, 0.8, 1.0, 0.5), "alpha_mode": "blend", "two_sided": True}
+    pane = {"color": e3d.linear(0.6, 0.8, 1.0, 0.5), "alpha_mode": "blend", "two_sided": True}
     scene.add(floor(1.6, **pane), translation=(0.4, 0.15, 0.6))
     poses = np.tile(np.eye(4), (3, 1, 1))
     poses[:, :3, 3] = [(-0.4, 1.3, 0.9), (0.3, 1.4, 0.7), (1.0, 1.2, 0.5)]

@@ -92,7 +92,7 @@ def texture_times_colors():
         [[0, 1, 2], [0, 2, 3]],
         uvs=[(0, 0), (1, 0), (1, 1), (0, 1)],
         colors=np.array([[255, 255, 255], [255, 80, 80], [80, 255, 80], [80, 80, 255]], np.uint8),
-        materials=[e3d.Material(texture=checkerboard(), color=(1.0, 0.9, 0.7))],
+        materials=[e3d.Material(texture=checkerboard(), color=e3d.linear(1.0, 0.9, 0.7))],
     )
     poses = [[-0.6, 0, 0, 0.9], [0.6, 0, 0, 0.9]]
     colors = np.array([[255, 255, 255], [255, 200, 90]], np.uint8)

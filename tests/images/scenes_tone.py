@@ -18,11 +18,11 @@ FOGS = {
 
 def lamps(background=(30, 38, 54), fog=None):
     """Rows of balls that shine more and more, of each kind of material, lines and points."""
-    scene = e3d.Scene(background, ambient=(0.2, 0.2, 0.25), exposure=0.5)
+    scene = e3d.Scene(background, ambient=e3d.linear(0.2, 0.2, 0.25), exposure=0.5)
     scene.fog = fog
-    scene.add(floor(8.0, color=(0.5, 0.5, 0.5)))
+    scene.add(floor(8.0, color=e3d.linear(0.5, 0.5, 0.5)))
     for number in range(5):
-        shine = tuple(c * 0.06 * 3.0**number for c in CORAL)
+        shine = e3d.linear(np.array(CORAL) * 0.06 * 3.0**number)
         plain = with_material(e3d.uv_sphere(0.28, (16, 8)), color=CORAL, emissive=shine)
         scene.add(plain, translation=(0.7 * number - 1.4, 0.3, 0.9 - 0.6 * number))
         metal = with_material(
@@ -33,7 +33,9 @@ def lamps(background=(30, 38, 54), fog=None):
         scene.add(flat, translation=(0.7 * number - 1.4, 1.4, 0.4 - 0.6 * number))
     line = np.array([(-1.6, 0.1, 1.5), (2.5, 1.8, -3.0), (2.0, 0.2, -2.0)], np.float32)
     scene.add(e3d.Mesh(line, lines=[[0, 1]], points=[2]))
-    glass = pane((*TEAL, 0.5), size=1.2, alpha_mode="blend", emissive=(0.8, 0.2, 0.1))
+    glass = pane(
+        e3d.linear(*TEAL, 0.5), size=1.2, alpha_mode="blend", emissive=e3d.linear(0.8, 0.2, 0.1)
+    )
     scene.add(glass, translation=(0.3, 0.2, 0.4))
     scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=3.0 * np.pi))
     return scene
@@ -48,18 +50,18 @@ def toned(mapping="none", background=(30, 38, 54), fog=None, **options):
 
 def glowing_glass(background=None, fog=None, **options):
     """Bright things behind grey and clear glass, and glass that shines itself."""
-    scene = e3d.Scene(background, ambient=(0.1, 0.1, 0.12))
+    scene = e3d.Scene(background, ambient=e3d.linear(0.1, 0.1, 0.12))
     scene.fog = fog
     for number in range(3):
-        lamp = with_material(e3d.icosphere(0.22, 2), color=SAND, emissive=(6.0, 4.0, 1.5))
+        lamp = with_material(e3d.icosphere(0.22, 2), color=SAND, emissive=e3d.linear(6.0, 4.0, 1.5))
         scene.add(lamp, translation=(0.8 * number - 0.8, 0.4, -0.3))
-    grey = pane((0.1, 0.1, 0.1, 0.8), size=0.7, alpha_mode="blend")
+    grey = pane(e3d.linear(0.1, 0.1, 0.1, 0.8), size=0.7, alpha_mode="blend")
     scene.add(grey, translation=(0, 0.1, 0.2))
     clear = {"metallic": 0.0, "roughness": 0.1, "transmission": 1.0}
-    scene.add(pane((0.3, 0.9, 0.4), size=0.7, **clear), translation=(0.8, 0.1, 0.2))
-    shine = {"alpha_mode": "blend", "emissive": (0.5, 2.5, 5.0)}
-    scene.add(pane((*TEAL, 0.6), size=0.5, **shine), translation=(-0.4, 0.8, 0.4))
-    scene.add(pane((*CORAL, 0.3), 1, size=0.5, **shine), translation=(0.5, 0.8, 0.3))
+    scene.add(pane(e3d.linear(0.3, 0.9, 0.4), size=0.7, **clear), translation=(0.8, 0.1, 0.2))
+    shine = {"alpha_mode": "blend", "emissive": e3d.linear(0.5, 2.5, 5.0)}
+    scene.add(pane(e3d.linear(*TEAL, 0.6), size=0.5, **shine), translation=(-0.4, 0.8, 0.4))
+    scene.add(pane(e3d.linear(*CORAL, 0.3), 1, size=0.5, **shine), translation=(0.5, 0.8, 0.3))
     scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=2.0 * np.pi))
     names = ("samples", "antialiasing")
     own = {key: options.pop(key) for key in names if key in options}
@@ -106,5 +108,8 @@ variant("bloom_glass_msaa", glowing_glass, SKY, samples=4, antialiasing="msaa")
 variant("gradient", behind, SKY)
 variant("gradient_overdraw", behind, SKY, mode="overdraw")
 variant(
-    "gradient_linear", behind, e3d.Gradient((0.2, 0.2, 0.8), (1.5, 0.5, 0.0)), color_space="linear"
+    "gradient_linear",
+    behind,
+    e3d.Gradient(e3d.linear(0.2, 0.2, 0.8), e3d.linear(1.5, 0.5, 0.0)),
+    color_space="linear",
 )

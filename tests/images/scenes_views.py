@@ -91,7 +91,9 @@ def floor_to_the_horizon_wireframe():
     scene = e3d.Scene(background=(10, 12, 20))
     scene.add(e3d.plane((400, 400), 80))
     camera = camera_at((0.2, 1.5, 0.1), (0.3, 1.2, -3), znear=0.01, zfar=1e4)
-    return Picture(scene, camera, options={"wireframe": "overlay", "line_color": (0.2, 1, 0.4)})
+    return Picture(
+        scene, camera, options={"wireframe": "overlay", "line_color": e3d.linear(0.2, 1, 0.4)}
+    )
 
 
 @picture

@@ -60,9 +60,9 @@ VALUES = {
 }
 LIT = {
     "DirectionalLight": lambda **how: e3d.DirectionalLight((0.3, -1, -0.5), **how),
-    "PointLight": lambda **how: e3d.PointLight((1, 0.5, 0.2), 9.0, **how),
-    "SpotLight": lambda **how: e3d.SpotLight((0.2, 0.5, 1), 20.0, **how),
-    "HemisphereLight": lambda: e3d.HemisphereLight((1, 0.5, 0), (0, 0, 1)),
+    "PointLight": lambda **how: e3d.PointLight(e3d.linear(1, 0.5, 0.2), 9.0, **how),
+    "SpotLight": lambda **how: e3d.SpotLight(e3d.linear(0.2, 0.5, 1), 20.0, **how),
+    "HemisphereLight": lambda: e3d.HemisphereLight(e3d.linear(1, 0.5, 0), (0, 0, 1)),
     "LightProbe": lambda: e3d.LightProbe(PROBE),
 }
 MATERIALS = {
@@ -81,7 +81,7 @@ MATERIALS = {
     "brushed": {"metallic": 1.0, "roughness": 0.3, "anisotropy": 0.8},
     "film": {"metallic": 0.0, "roughness": 0.2, "iridescence": 1.0},
     "glass": {"roughness": 0.1, "transmission": 1.0, "thickness": 0.5},
-    "emissive": {"metallic": 0.0, "emissive": (3.0, 0, 0)},
+    "emissive": {"metallic": 0.0, "emissive": e3d.linear(3.0, 0, 0)},
 }
 
 

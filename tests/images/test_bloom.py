@@ -182,7 +182,7 @@ def test_radiance_alone_has_shadows():
 def test_light_too_bright_to_add_up():
     scene, camera = panes(1, 0.5, roughness=0.5, metallic=0.0, transmission=1.0)
     for node in scene.nodes:
-        node.object.materials[0].emissive = (3e38, 3e38, 1.0)
+        node.object.materials[0].emissive = e3d.linear(3e38, 3e38, 1.0)
     for backend in e3d.backends():
         frame = e3d.render(scene, camera, size=(9, 9), outputs=("radiance",), backend=backend)
         assert np.isfinite(frame.radiance).all()
@@ -193,7 +193,9 @@ def test_glass_glows_and_dims():
 
     def glow(*alphas, emissive):
         scene = e3d.Scene(BLACK, ambient=BLACK)
-        ball = with_material(e3d.icosphere(0.15, 2), color=BLACK, emissive=(9.0, 9.0, 9.0))
+        ball = with_material(
+            e3d.icosphere(0.15, 2), color=BLACK, emissive=e3d.linear(9.0, 9.0, 9.0)
+        )
         if not emissive:
             scene.add(ball)
         for alpha in alphas:

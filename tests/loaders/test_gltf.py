@@ -13,6 +13,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
+from engine3d import InvalidArgumentError, linear
 from engine3d.apps.cli.commands.info import describe
 from engine3d.errors import Engine3DWarning, FileFormatError
 from engine3d.io.formats.gltf import gltf_buffers
@@ -293,8 +294,9 @@ def test_a_material_comes_along(write):
     document = load_document(write("a.gltf", json.dumps(tree)))
     mesh = document.objects[0].mesh
     (material,) = mesh.materials
-    assert (material.name, material.two_sided, material.color) == ("paint", True, (1, 0.5, 0.25))
-    assert (material.emissive, material.emissive_strength) == ((0.5, 0, 0), 4)
+    paint = linear(1, 0.5, 0.25)
+    assert (material.name, material.two_sided, material.color) == ("paint", True, paint)
+    assert (material.emissive, material.emissive_strength) == (linear(0.5, 0, 0), 4)
     assert (material.metallic, material.roughness) == (0, 1)
     texture = material.texture.texture
     assert material.texture == e3d.PlacedTexture(texture, offset=(0.5, 0), scale=(0.5, 2))
@@ -310,8 +312,8 @@ def test_factors_above_one_are_no_suspicion(write):
     specular = {"KHR_materials_specular": {"specularColorFactor": [25, 25, 25]}}
     add_material(tree, png(np.zeros((1, 1, 3), np.uint8)), extensions=specular)
     document = load_document(write("a.gltf", json.dumps(tree)))
-    assert document.objects[0].mesh.materials[0].specular_color == (25, 25, 25)
-    with pytest.warns(Engine3DWarning, match="floats up to 25"):  # here people write them
+    assert document.objects[0].mesh.materials[0].specular_color == linear(25, 25, 25)
+    with pytest.raises(InvalidArgumentError, match="holds the float 25"):  # here people write them
         e3d.Material(specular_color=(25.0, 25.0, 25.0))
 
 

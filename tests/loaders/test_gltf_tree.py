@@ -231,7 +231,8 @@ def test_glossiness_becomes_roughness(tmp_path):
     tree["materials"] = [{"extensions": {"KHR_materials_pbrSpecularGlossiness": said}}]
     (material,) = read(tree, tmp_path).tree.meshes[0].mesh.materials
     assert (material.metallic, material.roughness, material.ior) == (0, 1, 0)
-    assert material.color == (0.5, 0.25, 1, 0.5) and material.specular_color == (0.1, 0.2, 0.3)
+    assert material.color == e3d.linear(0.5, 0.25, 1, 0.5)
+    assert material.specular_color == e3d.linear(0.1, 0.2, 0.3)
     assert np.array_equal(material.specular_color_texture.pixels, gloss)
     green = material.metallic_roughness_texture.pixels[0, :, 1]
     assert green.tolist() == [128, 230]  # 255 - 127.5 and 255 - 25.5, rounded up

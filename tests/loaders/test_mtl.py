@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
+from engine3d import linear
 from engine3d.errors import Engine3DWarning
 from engine3d.loaders import companion_texture, load_mesh
 from engine3d.model.materials.material import Material
@@ -331,7 +332,7 @@ def test_numbers_of_physically_based_materials(write):
     material = physical(write, "Pr .3\nPm 1\nPc .5\nPcr .25\nPs .1\nNi 1.7\n")
     assert (material.roughness, material.metallic, material.ior) == (0.3, 1, 1.7)
     assert (material.clearcoat, material.clearcoat_roughness) == (0.5, 0.25)
-    assert material.sheen_color == (0.1, 0.1, 0.1)
+    assert material.sheen_color == linear(0.1, 0.1, 0.1)
     assert not physical(write, "Ks 1 1 1\nNi 1.7\n").is_physical
 
 

@@ -8,6 +8,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.loaders import load_mesh
+from engine3d.model.materials.colors import linear_from_display
 
 SHARES = np.array([(1.0, 0.0, 0.2), (0.0, 1.0, 0.6), (0.4, 0.8, 1.0)])
 ALPHAS = np.array([1.0, 0.0, 0.6])
@@ -58,7 +59,7 @@ def test_colours_and_alphas_of_any_two_types(color, alpha):
     mesh = quietly(ply([*names, ("alpha", KINDS[alpha][0])], columns))
     if color in FLOATS:
         assert mesh.colors.dtype == np.float32
-        np.testing.assert_array_equal(mesh.colors[:, :3], np.float32(SHARES))
+        np.testing.assert_array_equal(mesh.colors[:, :3], linear_from_display(SHARES))
         np.testing.assert_allclose(mesh.colors[:, 3], ALPHAS, atol=1e-6)
     else:
         expected = np.floor(np.column_stack([SHARES, ALPHAS]) * 255 + 0.5)
@@ -76,10 +77,10 @@ def test_channels_of_different_types(kinds):
     np.testing.assert_array_equal(mesh.colors[:, :3], np.floor(SHARES * 255 + 0.5))
 
 
-def test_linear_floats_beside_bytes():
-    mesh = quietly(ply([("r", "uchar"), ("g", "float"), ("b", "uchar")], [(255, 0.25, 188)]))
+def test_floats_beside_bytes():
+    mesh = quietly(ply([("r", "uchar"), ("g", "float"), ("b", "uchar")], [(255, 0.5, 188)]))
     assert mesh.colors.dtype == np.float32
-    np.testing.assert_allclose(mesh.colors[0], [1, 0.25, 0.503, 1], atol=1e-3)
+    np.testing.assert_allclose(mesh.colors[0], [1, 0.214, 0.503, 1], atol=1e-3)
 
 
 def test_bytes_whose_sign_was_not_meant():
@@ -89,10 +90,10 @@ def test_bytes_whose_sign_was_not_meant():
     assert quietly(data).colors[0].tolist() == [200, 127, 255, 255]
 
 
-def test_light_beyond_one_stays_light(tmp_path):
+def test_light_beyond_one_stays_light_in_our_own_files(tmp_path):
     mesh = quietly(ply([(name, "float") for name in "rgb"], [(3.5, 0.5, 0), (0, 0, 12)]))
-    assert mesh.colors[:, :3].tolist() == [[3.5, 0.5, 0], [0, 0, 12]] and not mesh.warnings
-    bright = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=np.float32([[99, 0, 1, 1]] * 3))
+    assert mesh.colors[:, [0, 2]].tolist() == [[1, 0], [0, 1]] and not mesh.warnings
+    bright = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=e3d.linear(np.float32([[99, 0, 1, 1]] * 3)))
     bright.save(tmp_path / "a.ply")  # our own files say that floats are light
     np.testing.assert_array_equal(load_mesh(tmp_path / "a.ply").colors, bright.colors)
 

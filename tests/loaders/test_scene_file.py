@@ -91,7 +91,7 @@ WRONG = [
     (changed("nodes", 1, "tracks", [{"times": [1], "repeat": 0}]), "repeat: 0 is not true or"),
     (changed("scene", "full_rate_distance", "far"), "scene.full_rate_distance: "),
     (changed("scene", "weather", 1), "scene.weather: is no property of a scene"),
-    (changed("scene", "ambient", "blue"), "scene.ambient: "),
+    (changed("scene", "ambient", "bluish"), "scene.ambient: "),
     (changed("objects", 0, "kind", "cat"), r"objects\[0\].kind: 'cat' is not one of mesh"),
     (changed("objects", 0, "kind", ...), r"objects\[0\]: 'kind' is missing"),
     (changed("objects", 5, "brightness", 1), r"objects\[5\]: .*brightness"),

@@ -40,7 +40,7 @@ def test_there_and_back(make):
 def test_colors():
     triangle = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=np.arange(12, dtype=np.uint8).reshape(3, 4))
     assert same(e3d.Mesh.from_trimesh(triangle.to_trimesh()).colors, triangle.colors)
-    linear = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=np.full((3, 4), 0.5, np.float32))
+    linear = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=e3d.linear(np.full((3, 4), 0.5, np.float32)))
     assert e3d.Mesh.from_trimesh(linear.to_trimesh()).colors[0].tolist() == [188, 188, 188, 128]
     box = trimesh.creation.box()
     box.visual.face_colors = np.arange(48, dtype=np.uint8).reshape(12, 4)

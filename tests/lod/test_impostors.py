@@ -63,7 +63,7 @@ def test_a_card_looks_like_the_mesh_from_its_direction(impostor, number):
     up = (0, 1, 0) if abs(direction[1]) < 0.99 else (0, 0, 1)
     frames = []
     for mesh in (thing(), impostor.cards[number]):
-        scene = e3d.Scene(ambient=(0.3, 0.3, 0.3))
+        scene = e3d.Scene(ambient=e3d.linear(0.3, 0.3, 0.3))
         scene.add(e3d.DirectionalLight((-0.5, -0.8, -0.4)))
         scene.add(mesh)
         center = impostor._center
@@ -164,7 +164,7 @@ def test_pictures_are_the_same_everywhere(impostor):
             things = e3d.detail.DetailedInstances(
                 [(thing(), 0.0)], places, impostor=made, impostor_pixels=30
             )
-            scene = e3d.Scene(ambient=(0.4, 0.4, 0.4))
+            scene = e3d.Scene(ambient=e3d.linear(0.4, 0.4, 0.4))
             scene.add(e3d.DirectionalLight((0, -1, -1)))
             things.add_to(scene)
             things.update(CAMERA, look(60.0, y=9.0), SIZE)

@@ -5,8 +5,14 @@ from decimal import Decimal, getcontext
 import numpy as np
 import pytest
 
+from engine3d import linear
 from engine3d.errors import Engine3DError
-from engine3d.model.materials.colors import linear_color, srgb_to_linear_table
+from engine3d.model.materials.colors import (
+    display_from_linear,
+    linear_color,
+    linear_from_display,
+    srgb_to_linear_table,
+)
 
 
 def test_the_table_is_the_srgb_curve_rounded_once():
@@ -21,8 +27,38 @@ def test_the_table_is_the_srgb_curve_rounded_once():
         assert table[value] == np.float32(float(exact))
 
 
-def test_floats_are_linear():
-    assert linear_color((0.25, 0.5, 2.0)).tolist() == [0.25, 0.5, 2.0]
+def test_floats_are_display_values():
+    assert linear_color((0.0, 0.5, 1.0)).tolist() == pytest.approx([0, 0.2140411, 1], abs=1e-5)
+    for code in range(256):
+        assert linear_color((code / 255, 0.5, 0))[0] == srgb_to_linear_table()[code]
+        assert linear_color(np.float32([code / 255, 0.5, 0]))[0] == srgb_to_linear_table()[code]
+
+
+def test_what_is_marked_is_linear_light():
+    assert linear_color(linear(0.25, 0.5, 2.0)).tolist() == [0.25, 0.5, 2.0]
+
+
+def test_display_values_ascend_and_come_back():
+    values = np.linspace(0, 1, 5001)
+    light = linear_from_display(values)
+    assert (np.diff(light) > 0).all()
+    np.testing.assert_allclose(display_from_linear(light), values, atol=1e-6)
+    random = np.random.default_rng(1).random(5000).astype(np.float32)
+    assert (linear_from_display(display_from_linear(random)) == random).mean() > 0.999
+
+
+def test_between_codes_light_is_within_a_hundredth_of_a_code_of_the_curve():
+    values = np.linspace(0, 1, 5001)
+    curve = np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
+    codes = 255 * display_from_linear(linear_from_display(values))
+    np.testing.assert_allclose(255 * display_from_linear(curve), codes, atol=0.01)
+
+
+def test_display_values_end_at_one():
+    assert linear_color((1 + 1e-9, 0, 0))[0] == 1
+    for brighter in ((1.1, 0, 0), (255.0, 0, 0), np.array([2.0, 0, 0])):
+        with pytest.raises(Engine3DError, match="linear"):
+            linear_color(brighter)
 
 
 def test_integers_are_srgb():
@@ -39,7 +75,7 @@ def test_integers_of_zero_and_one_mean_floats():
 
 
 def test_one_float_makes_all_floats():
-    assert linear_color((1, 0.9, 0.8)).tolist() == pytest.approx([1, 0.9, 0.8])
+    assert linear_color((1, 0.9, 0.8)).tolist() == pytest.approx([1, 0.787412, 0.603827], abs=1e-5)
 
 
 def test_uint8_is_always_8_bit():
@@ -47,7 +83,19 @@ def test_uint8_is_always_8_bit():
 
 
 @pytest.mark.parametrize(
-    "value", [(1, 2), (1, 2, 3, 4), 3, (256, 0, 0), (-1, 0, 0), (float("nan"), 0, 0), "red", None]
+    "value",
+    [
+        (1, 2),
+        (2, 2, 3, 4),
+        3,
+        (256, 0, 0),
+        (-1, 0, 0),
+        (float("nan"), 0, 0),
+        "redd",
+        b"red",
+        "",
+        None,
+    ],
 )
 def test_what_is_no_color_is_refused(value):
     with pytest.raises(Engine3DError):

@@ -5,6 +5,7 @@ import inspect
 import numpy as np
 import pytest
 
+from engine3d import linear
 from engine3d._native import rasterizer
 from engine3d.errors import InvalidArgumentError
 from engine3d.model.materials.colors import linear_color
@@ -58,6 +59,7 @@ def test_the_core_is_told_all_that_it_wants_to_know():
 
 def test_colors_are_kept_as_given():
     assert Material(color=(255, 128, 0)).color == (255, 128, 0)
+    assert Material(color=linear(0.5, 0.25, 0.0)).color == linear(0.5, 0.25, 0.0)
     assert Material(color=(0.5, 0.25, 0.0)).color == (0.5, 0.25, 0.0)
 
 
@@ -103,9 +105,9 @@ def test_metallic_or_roughness_makes_a_material_physical():
 
 def test_a_fourth_component_is_alpha():
     assert (Material().alpha, Material().rgb) == (1, (1, 1, 1))
-    linear = Material(color=(0.5, 0.25, 0.0, 0.75))
-    assert linear.color == (0.5, 0.25, 0.0, 0.75)
-    assert (linear.rgb, linear.alpha) == ((0.5, 0.25, 0.0), 0.75)
+    light = Material(color=linear(0.5, 0.25, 0.0, 0.75))
+    assert light.color == linear(0.5, 0.25, 0.0, 0.75)
+    assert (light.rgb, light.alpha) == (linear(0.5, 0.25, 0.0), 0.75)
     encoded = Material(color=(1, 0, 0, 51))
     assert encoded.alpha == 0.2
     assert np.array_equal(
@@ -126,7 +128,7 @@ def test_a_fourth_component_is_alpha():
         ({"alpha_cutoff": -1}, "alpha_cutoff"),
         ({"normal_scale": float("inf")}, "normal_scale must be a finite number"),
         ({"ior": 0.5}, "ior must be 0, or 1 or greater, not 0.5"),
-        ({"sheen_color": (1, 2)}, "sheen_color needs 3 components"),
+        ({"sheen_color": (1, 2)}, "sheen_color needs 3 or 4 components"),
         ({"attenuation_distance": 0}, "attenuation_distance must be greater than 0"),
         ({"normal_texture": "bumps.png"}, "normal_texture must be a Texture or None: str"),
         ({"emissive_strength": -1}, "emissive_strength"),

@@ -24,7 +24,7 @@ def meshes():
 
 def mixed_scene(random, count=120):
     """Nodes of all kinds by turns, many of them at the same place as another."""
-    scene = e3d.Scene(ambient=(0.3, 0.3, 0.3))
+    scene = e3d.Scene(ambient=e3d.linear(0.3, 0.3, 0.3))
     scene.add(e3d.PointLight(intensity=30.0 * np.pi), translation=(2, 3, 5))
     group = scene.add(translation=(0.1, 0, 0))
     kinds = meshes()
@@ -176,7 +176,7 @@ def test_meshes_of_the_same_materials_share_them():
     two = np.arange(len(base.faces)) % 2
 
     def scene(shared):
-        made = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+        made = e3d.Scene(ambient=e3d.linear(0.2, 0.2, 0.2))
         made.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
         colors = ((200, 80, 30), (30, 90, 200))
         common = [e3d.Material(color=color) for color in colors]

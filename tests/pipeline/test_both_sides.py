@@ -14,7 +14,7 @@ def encloses(mesh):
 
 
 def scene_of(*meshes):
-    scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+    scene = e3d.Scene(ambient=e3d.linear(0.2, 0.2, 0.2))
     for number, mesh in enumerate(meshes):
         scene.add(mesh, translation=(2.5 * number, 0, 0))
     scene.add(e3d.DirectionalLight((-0.3, -0.5, -1)))

@@ -273,7 +273,7 @@ def field(side, spacing):
     """Spheres side by side on a square field."""
     x, z = spacing * (np.indices((side, side)) - (side - 1) / 2)
     poses = np.stack([x, 0 * x, z, 0.5 * spacing + 0 * x], axis=-1).reshape(-1, 4)
-    scene = e3d.Scene(ambient=(0.3, 0.3, 0.3))
+    scene = e3d.Scene(ambient=e3d.linear(0.3, 0.3, 0.3))
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.9, (16, 9)), poses))
     return scene
 

@@ -14,10 +14,10 @@ def lit_scene():
     scene.add(e3d.icosphere(1.0, 2))
     group = scene.add()
     lamps = [
-        scene.add(e3d.PointLight((1, 0.5, 0.2), 3.0), parent=group, translation=(x, 2, 1))
+        scene.add(e3d.PointLight(e3d.linear(1, 0.5, 0.2), 3.0), parent=group, translation=(x, 2, 1))
         for x in (-2, 2)
     ]
-    sun = scene.add(e3d.DirectionalLight((0, -1, -1), (0.2, 0.3, 0.5)))
+    sun = scene.add(e3d.DirectionalLight((0, -1, -1), e3d.linear(0.2, 0.3, 0.5)))
     return scene, group, lamps, sun
 
 

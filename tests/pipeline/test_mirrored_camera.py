@@ -17,7 +17,7 @@ def scene_of_a_kind():
     scene.add(ball, translation=(-0.9, 0.1, 0))
     scene.add(ball, translation=(0.7, 0, 0.2), scale=(-0.8, 0.8, 0.8), rotation=(0, 0.3, 0, 0.95))
     open_box = e3d.primitives.quad((-2, -1, -1), (2, -1, -1), (2, 1, -1), (-2, 1, -1))
-    open_box.materials = [e3d.Material(two_sided=True, color=(0.3, 0.7, 0.5))]
+    open_box.materials = [e3d.Material(two_sided=True, color=e3d.linear(0.3, 0.7, 0.5))]
     scene.add(open_box, rotation=(0, 1, 0, 0), translation=(0, 0, -2))
     scene.add(e3d.DirectionalLight((-0.4, -0.6, -0.7)))
     return scene

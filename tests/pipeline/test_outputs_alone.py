@@ -18,9 +18,13 @@ SIZE = (80, 70)  # a whole tile, and parts of others
 
 @pytest.fixture(scope="module")
 def scene():
-    scene = e3d.Scene(background=(0.1, 0.2, 0.3))
+    scene = e3d.Scene(background=e3d.linear(0.1, 0.2, 0.3))
     sphere, box = e3d.icosphere(1.0, subdivisions=3), e3d.box()
-    sphere.materials = [e3d.Material(color=(0.5, 0.6, 0.7), emissive=(1, 0.5, 0.2), roughness=0.4)]
+    sphere.materials = [
+        e3d.Material(
+            color=e3d.linear(0.5, 0.6, 0.7), emissive=e3d.linear(1, 0.5, 0.2), roughness=0.4
+        )
+    ]
     box.materials = [e3d.Material(color=(1.0, 1.0, 1.0, 0.5), alpha_mode="blend")]
     scene.add(sphere)
     scene.add(box, translation=(0.2, 0.1, 0.3))

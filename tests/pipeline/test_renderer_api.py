@@ -242,7 +242,7 @@ def test_hidden_lights_stay_off(front):
 
 def test_directional_light_turns_with_its_node(front):
     scene = scene_of(square(), ambient=(0, 0, 0))
-    light = scene.add(e3d.DirectionalLight((0, 0, -1), (1.0, 0.5, 0.25)))
+    light = scene.add(e3d.DirectionalLight((0, 0, -1), e3d.linear(1.0, 0.5, 0.25)))
     assert lit_pixel(scene, front) == [255, 128, 64]
     light.rotation = linalg.quaternion_from_axis_angle((0, 1, 0), math.pi / 3)
     assert lit_pixel(scene, front) == pytest.approx([127, 64, 32], abs=1)
@@ -273,10 +273,10 @@ def test_light_clamp(front):
 
 
 def test_specular_and_emissive(front):
-    shiny = e3d.Material(color=(0, 0, 0), specular=(0.5, 0.5, 0.5), shininess=10)
+    shiny = e3d.Material(color=(0, 0, 0), specular=e3d.linear(0.5, 0.5, 0.5), shininess=10)
     scene = scene_of(square(materials=[shiny]), e3d.DirectionalLight(), ambient=(0, 0, 0))
     assert lit_pixel(scene, front) == pytest.approx([127] * 3, abs=2)
-    glowing = e3d.Material(color=(0, 0, 0), emissive=(0.25, 0.5, 1.0))
+    glowing = e3d.Material(color=(0, 0, 0), emissive=e3d.linear(0.25, 0.5, 1.0))
     scene = scene_of(square(materials=[glowing]), ambient=(0, 0, 0))
     assert lit_pixel(scene, front) == [64, 128, 255]
 
@@ -497,7 +497,7 @@ def change_light(scene, mesh, material, texture):
 
 def change_ambient(scene, mesh, material, texture):
     scene.add(e3d.DirectionalLight(intensity=0))
-    scene.ambient = (0.3, 0.3, 0.3)
+    scene.ambient = e3d.linear(0.3, 0.3, 0.3)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 import engine3d as e3d
 
 SIZE = (64, 48)
-GLOW = e3d.Material(color=(0, 0, 0), emissive=(1.0, 0.8, 0.4))
+GLOW = e3d.Material(color=(0, 0, 0), emissive=e3d.linear(1.0, 0.8, 0.4))
 SHADOWS = [True, "exact"]
 
 
@@ -60,7 +60,7 @@ LAMPS = [child, parent, same_place, elsewhere, spot, instances]
 
 def room(lamp, shadow, material=GLOW):
     """A floor with a box, and a lamp over it: a scene, and the node of the lamp's ball."""
-    scene = e3d.Scene(ambient=(0.02, 0.02, 0.02))
+    scene = e3d.Scene(ambient=e3d.linear(0.02, 0.02, 0.02))
     scene.add(e3d.plane((6.0, 6.0), 2))
     scene.add(e3d.box((0.4, 0.4, 0.4)), translation=(0.9, 0.2, 0.3))
     return scene, lamp(scene, shadow, material)

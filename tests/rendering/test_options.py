@@ -94,7 +94,7 @@ def test_what_could_change_in_place_is_copied():
         ({"outputs": ([],)}, "outputs must be one of"),
         ({"line_width": 0}, "line_width must be more than 0"),
         ({"point_size": 257}, "point_size must be more than 0 and at most 256"),
-        ({"line_color": (1, 2)}, "line_color needs 3 components"),
+        ({"line_color": (1, 2)}, "line_color needs 3 or 4 components"),
     ],
 )
 def test_what_is_wrong_is_an_error_when_it_is_made(wrong, message):
@@ -109,6 +109,6 @@ def test_8_bit_colors_are_not_floats_of_the_same_number(scene):
     with e3d.Renderer(64, 48) as renderer:
         frames = [
             renderer.render(scene, options=e3d.RenderOptions(wireframe="only", line_color=color))
-            for color in ((3, 3, 3), (3.0, 3.0, 3.0))
+            for color in ((np.uint8(1),) * 3, (1.0, 1.0, 1.0))
         ]
     assert not np.array_equal(frames[0].color, frames[1].color)

@@ -50,7 +50,7 @@ def test_renderer(arguments, options, message):
         ({"line_width": 257}, "line_width"),
         ({"point_size": float("nan")}, "point_size"),
         ({"line_color": (1, 2)}, "line_color"),
-        ({"line_color": "red"}, "line_color must be a sequence of 3 numbers: 'red'"),
+        ({"line_color": "redd"}, "line_color: 'redd' is neither #rrggbb nor the name of a colour"),
         ({"out": np.zeros((6, 8, 4))}, "out must be a Frame"),
         ({"camera": e3d.PerspectiveCamera()}, "a camera alone has no place"),
         ({"camera": 5}, "must be None, a node or a pair"),

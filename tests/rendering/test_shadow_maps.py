@@ -13,7 +13,7 @@ DOWN = (0.0, -1.0, 0.0)
 
 def stage(light=None, **light_options):
     """A floor under a box that hangs, seen from above, and a light from the left above."""
-    scene = e3d.Scene(background=(0, 0, 0), ambient=(0.25, 0.25, 0.25))
+    scene = e3d.Scene(background=(0, 0, 0), ambient=e3d.linear(0.25, 0.25, 0.25))
     floor = scene.add(e3d.plane((8.0, 8.0)), name="floor")
     box = scene.add(e3d.box(1.0), name="box", translation=(0.0, 2.0, 0.0))
     light = light or e3d.DirectionalLight(
@@ -90,7 +90,7 @@ def test_a_coloured_light_under_a_shadow_shows_its_colour():
     scene, *_, lamp = stage()
     lamp.object.color = (1.0, 0.0, 0.0)
     scene.ambient = (0.0, 0.0, 0.0)
-    scene.add(e3d.DirectionalLight(DOWN, (0.0, 0.5, 0.5)))
+    scene.add(e3d.DirectionalLight(DOWN, e3d.linear(0.0, 0.5, 0.5)))
     frame = seen_from_above(scene)
     rows, columns = [round((z + 4) * 20) for z in (0.0, 1.5)], round((2.0 + 4) * 20)
     under, beside = frame.color[rows, columns, :3].tolist()
@@ -273,7 +273,7 @@ def test_the_ranges_of_kept_maps_change_no_pixel(kind):
 
 def far_stage():
     """A floor that is wide beside what the camera sees, with columns on it."""
-    scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+    scene = e3d.Scene(ambient=e3d.linear(0.2, 0.2, 0.2))
     scene.add(e3d.plane((400.0, 400.0)))
     column = e3d.box((0.7, 2.0, 0.5))
     for x in range(-8, 9, 2):

@@ -50,7 +50,7 @@ def test_it_is_drawn_as_one_scene_that_holds_it_all(mode, cull):
             for name in OUTPUTS:
                 assert np.array_equal(getattr(frames[0], name), getattr(frames[1], name)), name
     scene, drawn, nodes = other
-    assert scene.background == (10, 20, 30) and scene.ambient == (0.1, 0.1, 0.1)
+    assert scene.background == (10, 20, 30) and scene.ambient == e3d.linear(0.1, 0.1, 0.1)
     assert len(scene.nodes) == 2 and nodes["ground"] not in scene.nodes
 
 

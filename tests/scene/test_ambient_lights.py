@@ -68,10 +68,10 @@ def test_its_node_turns_it():
 
 def test_any_number_add_up_with_ambient():
     up, down = (
-        e3d.HemisphereLight((0.5, 0, 0), (0, 0, 0)),
-        e3d.HemisphereLight((0, 0, 0), (0.5, 0, 0)),
+        e3d.HemisphereLight(e3d.linear(0.5, 0, 0), (0, 0, 0)),
+        e3d.HemisphereLight((0, 0, 0), e3d.linear(0.5, 0, 0)),
     )
-    _, color = shown([(up, None), (down, None)], ambient=(0.25, 0.1, 0.0))
+    _, color = shown([(up, None), (down, None)], ambient=e3d.linear(0.25, 0.1, 0.0))
     assert np.abs(color - (0.75, 0.1, 0.0)).max() < 0.0025
 
 
@@ -161,10 +161,14 @@ def test_scene_files_keep_them(tmp_path):
     scene = e3d.Scene()
     numbers = np.arange(27.0).reshape(9, 3) / 9
     scene.add(e3d.LightProbe(numbers, 0.5), name="probe")
-    scene.add(e3d.HemisphereLight((0.1, 0.2, 0.3), (10, 20, 30), 2.0), name="sky")
+    scene.add(e3d.HemisphereLight(e3d.linear(0.1, 0.2, 0.3), (10, 20, 30), 2.0), name="sky")
     path = tmp_path / "scene.json"
     e3d.save_scene(scene, path)
     back = e3d.load_scene(path)
     probe, sky = back.find("probe").object, back.find("sky").object
     assert np.array_equal(probe.coefficients, numbers) and probe.intensity == 0.5
-    assert (sky.sky_color, sky.ground_color, sky.intensity) == ((0.1, 0.2, 0.3), (10, 20, 30), 2.0)
+    assert (sky.sky_color, sky.ground_color, sky.intensity) == (
+        e3d.linear(0.1, 0.2, 0.3),
+        (10, 20, 30),
+        2.0,
+    )

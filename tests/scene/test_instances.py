@@ -25,7 +25,7 @@ def test_poses_are_rounded_once_and_read_only(box):
 
 def test_colors_are_widened(box):
     poses = np.zeros((2, 4))
-    floats = e3d.InstancedMesh(box, poses, colors=np.full((2, 3), 0.5))
+    floats = e3d.InstancedMesh(box, poses, colors=e3d.linear(np.full((2, 3), 0.5)))
     assert floats.colors.tolist() == [[0.5, 0.5, 0.5, 1.0]] * 2
     bytes_ = e3d.InstancedMesh(box, poses, colors=np.full((2, 3), 7, np.uint8))
     assert bytes_.colors.tolist() == [[7, 7, 7, 255]] * 2

@@ -38,7 +38,7 @@ def test_objects_keep_names_and_poses():
 
 def test_ambient_light_is_the_scenes():
     scene = scene_from_document(document_of(lights=[LightRecord("ambient", color=(0.2, 0.4, 0.6))]))
-    assert scene.ambient == (0.2, 0.4, 0.6)
+    assert scene.ambient == e3d.linear(0.2, 0.4, 0.6)
     assert objects_of(scene, (e3d.PointLight, e3d.DirectionalLight)) == []
 
 
@@ -47,7 +47,7 @@ def test_a_point_light_is_as_bright_as_the_file_says_at_the_centre():
     (node,) = objects_of(scene_from_document(document_of(lights=[record])), e3d.PointLight)
     assert node.name == "lamp"
     assert node.translation.tolist() == [2, 10, 0]
-    assert node.object.color == (1.0, 0.5, 0.25)
+    assert node.object.color == e3d.linear(1.0, 0.5, 0.25)
     assert node.object.intensity == pytest.approx(0.8 * math.pi * 10**2)
 
 

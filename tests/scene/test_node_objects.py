@@ -54,7 +54,10 @@ def test_cameras_and_lights_stand_in_the_order_of_their_nodes():
     scene.add(e3d.PointLight(intensity=3.3), translation=(-1, 2, 2))
     scene.add(e3d.PerspectiveCamera(0.4), translation=(0, 0, 9))
     scene.add(e3d.icosphere(0.8, 2))
-    first.object, lamp.object = e3d.PerspectiveCamera(1.1), e3d.PointLight((1, 0.3, 0.7), 2.1)
+    first.object, lamp.object = (
+        e3d.PerspectiveCamera(1.1),
+        e3d.PointLight(e3d.linear(1, 0.3, 0.7), 2.1),
+    )
     other.add(first.object, translation=(0, 0, 6))
     other.add(lamp.object, translation=(1, 1, 2))
     for node in scene.nodes[2:]:

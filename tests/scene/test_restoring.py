@@ -30,7 +30,7 @@ def seen(scene, renderer):
 
 
 def random_scene(random):
-    scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+    scene = e3d.Scene(ambient=e3d.linear(0.2, 0.2, 0.2))
     nodes = []
     for k in range(30):
         kinds = (*MESHES, None, e3d.PointLight(intensity=2.0), e3d.PerspectiveCamera())

@@ -267,7 +267,7 @@ def test_parent_of_another_scene(scene):
     ("options", "message"),
     [
         ({"background": (1, 2)}, "background"),
-        ({"background": "blue"}, "background"),
+        ({"background": "bluish"}, "background"),
         ({"ambient": (-1, 0, 0)}, "ambient"),
         ({"light_clamp": 1}, "light_clamp"),
         ({"light_clamp": (1, 0)}, "light_clamp"),

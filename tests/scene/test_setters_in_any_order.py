@@ -50,8 +50,8 @@ class Things:
         self.view = self.scene.add(self.camera, translation=(0.2, 0.3, 4))
         self.lights = (
             e3d.DirectionalLight((0, -0.3, -1)),
-            e3d.PointLight((1, 0.5, 0.2), 5.0, 20.0),
-            e3d.SpotLight((0.2, 0.5, 1), 9.0),
+            e3d.PointLight(e3d.linear(1, 0.5, 0.2), 5.0, 20.0),
+            e3d.SpotLight(e3d.linear(0.2, 0.5, 1), 9.0),
             e3d.HemisphereLight(intensity=0.2),
             e3d.LightProbe(np.linspace(0, 0.3, 27).reshape(9, 3)),
         )

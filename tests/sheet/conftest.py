@@ -10,7 +10,7 @@ SIZE = (480, 360)
 
 def part():
     """A base with a ball on it and a post behind; a small box inside of the base."""
-    scene = e3d.Scene(background=(1, 2, 3), ambient=(0.5, 0.4, 0.3))
+    scene = e3d.Scene(background=(1, 2, 3), ambient=e3d.linear(0.5, 0.4, 0.3))
     for name, mesh, place, color in (
         ("base", e3d.box((4, 1, 2)), (0, 0.5, 0), (90, 140, 200)),
         ("ball", e3d.uv_sphere(0.7, (24, 12)), (0.8, 1.7, 0.3), (220, 90, 60)),

@@ -22,7 +22,7 @@ SIZE = (120, 90)
 
 
 def staged(color=(0.2, 0.2, 0.2), settings=None, **options):
-    scene = e3d.Scene(ambient=(0.1, 0.2, 0.3))
+    scene = e3d.Scene(ambient=e3d.linear(0.1, 0.2, 0.3))
     box = e3d.box()
     box.materials = [e3d.Material(color=color)]
     scene.add(box, name="box")

@@ -75,12 +75,12 @@ def test_python_does_not_look_at_every_mesh():
 
 
 def change_color(scene, mesh):
-    mesh.materials[0].color = (0.9, 0.1, 0.2)
+    mesh.materials[0].color = e3d.linear(0.9, 0.1, 0.2)
 
 
 def change_emissive_twice(scene, mesh):
-    mesh.materials[0].emissive = (0.2, 0.5, 0.2)
-    mesh.materials[0].emissive = (0.5, 0.1, 0.2)
+    mesh.materials[0].emissive = e3d.linear(0.2, 0.5, 0.2)
+    mesh.materials[0].emissive = e3d.linear(0.5, 0.1, 0.2)
 
 
 def give_a_texture(scene, mesh):
@@ -98,12 +98,12 @@ def shade_flat(scene, mesh):
 
 
 def put_another_in_the_list(scene, mesh):
-    mesh.materials[0] = e3d.Material(color=(0.1, 0.9, 0.3))
+    mesh.materials[0] = e3d.Material(color=e3d.linear(0.1, 0.9, 0.3))
 
 
 def share_a_material(scene, mesh):
     mesh.materials = [scene.nodes[5].object.materials[0]]
-    mesh.materials[0].color = (0.3, 0.2, 0.8)
+    mesh.materials[0].color = e3d.linear(0.3, 0.2, 0.8)
 
 
 def move_vertices(scene, mesh):

@@ -66,19 +66,18 @@ SUSPECT = {
 
 
 @pytest.mark.parametrize("name", SUSPECT)
-def test_floats_that_look_like_8_bit_values_are_warned_of(name):
-    with pytest.warns(e3d.Engine3DWarning, match="up to 255.*give integers") as seen:
+def test_floats_that_are_8_bit_values_are_an_error(name):
+    with pytest.raises(e3d.InvalidArgumentError, match="float 255.*8-bit values are integers"):
         SUSPECT[name]()
-    assert len(seen) == 1 and seen[0].filename == __file__
 
 
 def test_bright_light_is_not_warned_of():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        e3d.Material(emissive=(12.5, 3.0, 0.0), color=(1.0, 1.0, 1.0))
-        e3d.PointLight(color=(900.0, 900.0, 900.0))
-        e3d.PointLight(color=(60.5, 60.0, 0.0))
-        e3d.Mesh(CORNERS, FACE, colors=np.eye(3) * 4)
+        e3d.Material(emissive=e3d.linear(12.5, 3.0, 0.0), color=(1.0, 1.0, 1.0))
+        e3d.PointLight(color=e3d.linear(900.0, 900.0, 900.0))
+        e3d.PointLight(color=e3d.linear(60.5, 60.0, 0.0))
+        e3d.Mesh(CORNERS, FACE, colors=e3d.linear(np.eye(3) * 4))
         e3d.Material(color=(255, 128, 0))
 
 

@@ -23,7 +23,7 @@ def viewer():
     scene = e3d.Scene(BACKGROUND)
     group = scene.add(name="group")
     mesh = e3d.box()
-    mesh.materials = [e3d.Material(color=(0.5, 0.25, 0.0))]
+    mesh.materials = [e3d.Material(color=e3d.linear(0.5, 0.25, 0.0))]
     scene.add(mesh, parent=group, name="left", translation=(-1.2, 0, 0))
     scene.add(mesh, parent=group, name="right", translation=(1.2, 0, 0))
     view_renderer = ViewRenderer(ViewedScene(scene, "boxes", azimuth=0.3), Settings({}), SIZE)

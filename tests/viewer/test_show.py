@@ -51,7 +51,7 @@ def test_scenes_nodes_and_meshes_show_in_the_viewer(shown):
 
 
 def test_a_scene_is_afterwards_as_it_was(shown):
-    scene = e3d.Scene((0.1, 0.2, 0.3))
+    scene = e3d.Scene(e3d.linear(0.1, 0.2, 0.3))
     scene.add(e3d.box())
     lamp = scene.add(e3d.PointLight())
     dark = scene.add(e3d.PointLight())

@@ -54,7 +54,7 @@ def test_the_ground_stays(levels):
 def test_nobody_sees_it_from_where_it_is_chosen(world, levels, seed):
     """From above, with levels mixed: few pixels change, and nothing shows through."""
     random = np.random.default_rng(seed)
-    scene = e3d.Scene(background=None, ambient=(0.5, 0.5, 0.5))
+    scene = e3d.Scene(background=None, ambient=e3d.linear(0.5, 0.5, 0.5))
     scene.add(e3d.DirectionalLight((-0.5, -0.8, -0.4)))
     detailed = e3d.detail.DetailedMeshes(levels)
     group = detailed.add_to(scene)

@@ -52,7 +52,7 @@ ARRAYS = {
     "uvs1": lambda r, v, f, n: r.random((v, 2)),
     "tangents": lambda r, v, f, n: np.hstack([r.normal(size=(v, 3)), r.choice([-1, 1], (v, 1))]),
     "colors": lambda r, v, f, n: pick(
-        r, r.integers(0, 256, (v, 4), np.uint8), r.random((v, 4)), r.random((v, 3)) * 2
+        r, r.integers(0, 256, (v, 4), np.uint8), r.random((v, 4)), e3d.linear(r.random((v, 3)) * 2)
     ),
     "material_ids": lambda r, v, f, n: r.integers(0, n, f),
     "lines": lambda r, v, f, n: r.integers(0, v, (2, 2)),
@@ -76,7 +76,9 @@ def pick(r, *choices):
 
 def color(r, count=3):
     numbers = r.random(count).tolist(), map(int, r.integers(0, 256, count)), (1.0,) * count
-    return tuple(pick(r, *numbers, (1,) * count, (0.0,) * count))
+    given = tuple(pick(r, *numbers, (1,) * count, (0.0,) * count))
+    is_light = r.random() < 0.3 and all(isinstance(part, float) for part in given)
+    return e3d.linear(given) if is_light else given
 
 
 def texture(r):
@@ -177,7 +179,13 @@ def instances(r, meshes):
     if r.random() < 0.5:
         poses = np.tile(np.eye(4), (count, 1, 1))
         poses[:, :3] += r.normal(size=(count, 3, 4)) * pick(r, 0, 0.1)
-    colors = pick(r, None, 2 * r.random((count, 4)), r.integers(0, 256, (count, 3), np.uint8))
+    colors = pick(
+        r,
+        None,
+        e3d.linear(2 * r.random((count, 4))),
+        r.random((count, 4)),
+        r.integers(0, 256, (count, 3), np.uint8),
+    )
     return e3d.InstancedMesh(pick(r, *meshes), poses, colors=colors)
 
 

@@ -145,7 +145,8 @@ def test_a_scene_comes_back(tmp_path, name, end):
 def test_a_scene_of_our_own_comes_back(tmp_path):
     scene = e3d.Scene()
     glass = e3d.Material(
-        name="glass", metallic=0.0, roughness=0.25, color=(0.5, 1.0, 1.0, 0.5), alpha_mode="blend",
+        name="glass", metallic=0.0, roughness=0.25, color=e3d.linear(0.5, 1.0, 1.0, 0.5),
+        alpha_mode="blend",
         transmission=0.75, thickness=2.0, attenuation_distance=3.0, ior=1.25, two_sided=True,
         anisotropy=0.5, anisotropy_rotation=1.5, iridescence=0.5, iridescence_ior=1.75,
         iridescence_thickness_minimum=50.0, iridescence_thickness_maximum=800.0,
@@ -207,13 +208,15 @@ def test_images_keep_their_bytes_while_they_are_the_same(tmp_path):
 @pytest.mark.parametrize("end", ENDS)
 def test_a_mesh_becomes_a_file(tmp_path, end):
     mesh = e3d.box()
-    mesh.materials = [e3d.Material(color=(0.5, 0.25, 0.0), specular=(1, 1, 1), shininess=6.0)]
+    mesh.materials = [
+        e3d.Material(color=e3d.linear(0.5, 0.25, 0.0), specular=(1, 1, 1), shininess=6.0)
+    ]
     with pytest.warns(Engine3DWarning, match="gltf files hold physical materials: 1 others"):
         mesh.save(tmp_path / f"a{end}")
     again = e3d.load_mesh(tmp_path / f"a{end}")
     assert np.array_equal(again.positions, mesh.positions)
     (material,) = again.materials
-    assert (material.color, material.metallic) == ((0.5, 0.25, 0.0), 0)
+    assert (material.color, material.metallic) == (e3d.linear(0.5, 0.25, 0.0), 0)
     assert material.roughness == pytest.approx(0.25**0.25)
     stream = io.BytesIO()
     with warnings.catch_warnings():

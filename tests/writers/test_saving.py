@@ -10,6 +10,7 @@ import engine3d as e3d
 from engine3d.errors import FileAccessError, InvalidArgumentError
 from engine3d.io.formats.obj.mtl_writer import material_names
 from engine3d.io.writers import formats
+from engine3d.model.materials.colors import linear_color
 
 ARRAYS = ("positions", "faces", "normals", "uvs", "colors", "material_ids", "lines", "points")
 ARRAYS += ("edge_visible", "position_ids")
@@ -113,7 +114,7 @@ def test_colors(tmp_path, extension):
     colors = np.arange(1024, dtype=np.uint32).astype(np.uint8).reshape(256, 4)
     cloud = e3d.Mesh(np.zeros((256, 3)), points=np.arange(256), colors=colors)
     assert differences(cloud, saved(cloud, tmp_path / f"a.{extension}")) == []
-    linear = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=[[0, 0.25, 1, 0.5]] * 3)
+    linear = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=e3d.linear([[0, 0.25, 1, 0.5]] * 3))
     again = saved(linear, tmp_path / f"b.{extension}")
     expected = [0, 0.25, 1, 0.5] if extension == "ply" else [0, 137, 255, 128]
     assert again.colors[0].tolist() == expected
@@ -134,12 +135,12 @@ def test_materials_and_textures(tmp_path):
     mesh.materials = [
         e3d.Material(
             name="# skin",
-            color=(0.5, 0.25, 0.125, 0.5),
+            color=e3d.linear(0.5, 0.25, 0.125, 0.5),
             alpha_mode="blend",
             texture=texture,
-            specular=(1, 0.5, 0),
+            specular=e3d.linear(1, 0.5, 0),
             shininess=9.5,
-            emissive=(0.0, 2.0, 0.0),
+            emissive=e3d.linear(0.0, 2.0, 0.0),
             extras={"Pm": 0.25, "maps": {"map_Ks": {"name": "s.png"}}},
         ),
         e3d.Material(name="# skin", texture=texture, color=(255, 0, 0)),
@@ -148,11 +149,9 @@ def test_materials_and_textures(tmp_path):
     again = saved(mesh, tmp_path / "a.obj")
     assert [m.name for m in again.materials] == ["_ skin", "_ skin_2", "material_2"]
     first = again.materials[0]
-    assert (first.color, first.specular, first.emissive) == (
-        (0.5, 0.25, 0.125, 0.5),
-        (1, 0.5, 0),
-        (0, 2, 0),
-    )
+    lights = [linear_color(color).tolist() for color in (first.rgb, first.specular)]
+    assert lights == [[0.5, 0.25, 0.125], [1, 0.5, 0]]
+    assert (first.alpha, first.emissive) == (0.5, e3d.linear(0, 2, 0))
     assert first.shininess == 9.5
     assert first.extras["Pm"] == 0.25
     assert first.alpha_mode == "blend"

@@ -75,7 +75,10 @@ def random_scene(random):
         lod_bias=-0.25,
     )
     material = e3d.Material(
-        color=(200, 30, 20), texture=texture, emissive=(0.1, 0.0, 0.3), extras={"note": [1, None]}
+        color=(200, 30, 20),
+        texture=texture,
+        emissive=e3d.linear(0.1, 0.0, 0.3),
+        extras={"note": [1, None]},
     )
     own = e3d.Mesh(
         random.normal(size=(9, 3)), random.integers(0, 9, (5, 3)), uvs=random.random((9, 2)),
@@ -91,8 +94,8 @@ def random_scene(random):
         e3d.primitives.quad(p0=(-1, -1, 0)), e3d.torus(),
         e3d.cylinder(0.3), e3d.plane((2, 1), (3, 2)), None, None,
         e3d.InstancedMesh(ball, random.normal(size=(4, 4))),
-        e3d.InstancedMesh(own, [np.eye(4)], colors=[(0.1, 0.9, 1.5)]),
-        e3d.PointLight((1.0, 0.8, 0.1), 9.0), e3d.PointLight(range=5.0, falloff="window"),
+        e3d.InstancedMesh(own, [np.eye(4)], colors=e3d.linear([(0.1, 0.9, 1.5)])),
+        e3d.PointLight(e3d.linear(1.0, 0.8, 0.1), 9.0), e3d.PointLight(range=5.0, falloff="window"),
         e3d.DirectionalLight((1, -2, 0.1), intensity=0.3), e3d.PerspectiveCamera(zfar=None),
         e3d.OrthographicCamera(3.0, xmag=2.0), e3d.IntrinsicsCamera(9, 9, 8, 6),
         e3d.Camera(e3d.linalg.perspective(1.0, 1.0, 0.1)),

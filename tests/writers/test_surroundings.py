@@ -6,11 +6,13 @@ import pytest
 
 import engine3d as e3d
 
-FOG = e3d.Fog((0.5, 0.25, 0.125), 1.5, 80.0)
+FOG = e3d.Fog(e3d.linear(0.5, 0.25, 0.125), 1.5, 80.0)
 
 
 @pytest.mark.parametrize("fog", [FOG, e3d.ExponentialFog((200, 190, 180), 0.02), None])
-@pytest.mark.parametrize("background", [e3d.Gradient((1, 2, 3), (0.5, 0.2, 0.1)), (9, 8, 7), None])
+@pytest.mark.parametrize(
+    "background", [e3d.Gradient((1, 2, 3), e3d.linear(0.5, 0.2, 0.1)), (9, 8, 7), None]
+)
 def test_written_and_read(tmp_path, background, fog):
     scene = e3d.Scene(background)
     scene.fog = fog

@@ -199,10 +199,12 @@ def color(text: str) -> tuple[int, int, int]:
             raise argparse.ArgumentTypeError(f"{text!r}: a component is above 255")
         red, green, blue = (int(value * scale + 0.5) for value in values)
         return red, green, blue
-    from PIL import ImageColor
+    from ...errors import InvalidArgumentError
+    from ...model.materials.color_names import color_of_word
 
     try:
-        return ImageColor.getrgb(text)[:3]
-    except ValueError:
+        red, green, blue = map(int, color_of_word(text)[:3])
+    except InvalidArgumentError:
         message = f"{text!r} is neither R,G,B nor #rrggbb nor the name of a colour"
         raise argparse.ArgumentTypeError(message) from None
+    return red, green, blue

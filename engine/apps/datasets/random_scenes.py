@@ -18,6 +18,7 @@ from ...base.calls import checks_types
 from ...base.numbers import shown
 from ...base.validation import choose, finite, fraction, positive, vector3
 from ...errors import InvalidArgumentError
+from ...model.materials.linear_colors import LinearColor
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.scene.cameras import PerspectiveCamera
@@ -103,7 +104,7 @@ def random_light(
     azimuth, height = generator.uniform(0.0, _TURN), generator.uniform(*elevation)
     across = linalg.cos(height)
     towards = linalg.cos(azimuth) * across, linalg.sin(height), linalg.sin(azimuth) * across
-    color = tuple(1.0 - generator.uniform(0.0, tint) for _ in range(3))
+    color = LinearColor(1.0 - generator.uniform(0.0, tint) for _ in range(3))
     strength = generator.uniform(*intensity)
     return DirectionalLight(np.negative(towards), color, strength, shadow=shadow)
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..._native.loaders import frozen
 from ...model.geometry.mesh import Mesh
+from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material, textures_of
 from ...model.materials.textures import Texture
 from ...model.primitives import uv_sphere
@@ -79,7 +80,7 @@ class Thumbnails:
         if isinstance(thing, Texture):
             return shrunk(thing, self._size)
         mesh = thing if isinstance(thing, Mesh) else self._dressed_ball(thing)
-        scene = Scene(background=BACKGROUND, ambient=(0.25, 0.25, 0.25))
+        scene = Scene(background=BACKGROUND, ambient=linear(0.25, 0.25, 0.25))
         scene.add(mesh)
         scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8 * WHITE_INTENSITY))
         return self._renderer.render(scene, cull="auto").color.copy()

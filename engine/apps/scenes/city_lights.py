@@ -15,6 +15,7 @@ from ...base import linalg
 from ...extras.worlds import World
 from ...extras.worlds.furniture import CARS, car
 from ...extras.worlds.plan import PITCH
+from ...model.materials.linear_colors import linear
 from ...model.scene.lights import WHITE_INTENSITY, PointLight
 from ...model.scene.scene import Scene
 
@@ -33,14 +34,14 @@ LIGHTS = 256
 CARS_AT_LEAST = 40
 #: Maximum number of lit lamps.
 MOST_LAMPS = 472
-LAMP = _shining((1.0, 0.74, 0.42), 1.5, 17.0)
+LAMP = _shining(linear(1.0, 0.74, 0.42), 1.5, 17.0)
 #: Radius of lit lamps around a walker, and its growth per metre of height.
 REACH, REACH_OF_HEIGHT = 205.0, 4.0
 #: The fraction of the radius in which lamps fade.
 FADE = 0.25
-_HEADLIGHT = _shining((0.95, 0.95, 1.0), 1.2, 14.0)
-_TAIL_LIGHT = _shining((1.0, 0.08, 0.05), 0.5, 5.0)
-_TAXI_SIGN = _shining((1.0, 0.82, 0.35), 0.4, 5.0)
+_HEADLIGHT = _shining(linear(0.95, 0.95, 1.0), 1.2, 14.0)
+_TAIL_LIGHT = _shining(linear(1.0, 0.08, 0.05), 0.5, 5.0)
+_TAXI_SIGN = _shining(linear(1.0, 0.82, 0.35), 0.4, 5.0)
 #: A car's lights, in the order of adding, and their positions on it.
 _CAR_LIGHTS = (
     (_HEADLIGHT, (0.0, 1.0, 3.4)),

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...extras.worlds import World
 from ...extras.worlds import city as make_city
+from ...model.materials.linear_colors import linear
 from ...model.navigation import NavigationGrid, Walker
 from ...model.primitives import box
 from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight
@@ -72,22 +73,22 @@ def city(triangles: int | None = None, *, dusk: bool = False) -> ViewedScene:
 def _day(scene: Scene, town: World) -> None:
     """Light a city by day: with the sun and the sky."""
     scene.background = sky(DAY, np.negative(SUN))
-    scene.ambient = (0.30, 0.36, 0.46)
-    scene.add(_sun(SUN, (1.0, 0.93, 0.80), 0.85 * WHITE_INTENSITY), name="sun")
+    scene.ambient = linear(0.30, 0.36, 0.46)
+    scene.add(_sun(SUN, linear(1.0, 0.93, 0.80), 0.85 * WHITE_INTENSITY), name="sun")
 
 
 def _dusk(scene: Scene, town: World) -> None:
     """Light a city at dusk: with the low sun and blue sky, and brighter lit windows."""
     scene.background = sky(DUSK, np.negative(LOW_SUN))
-    scene.ambient = (0.11, 0.13, 0.20)
+    scene.ambient = linear(0.11, 0.13, 0.20)
     scene.add(
-        DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.36 * WHITE_INTENSITY),
+        DirectionalLight((-0.55, -0.55, -0.45), linear(0.62, 0.66, 0.92), 0.36 * WHITE_INTENSITY),
         name="sky",
     )
-    scene.add(_sun(LOW_SUN, (1.0, 0.55, 0.34), 0.30 * WHITE_INTENSITY), name="sun")
+    scene.add(_sun(LOW_SUN, linear(1.0, 0.55, 0.34), 0.30 * WHITE_INTENSITY), name="sun")
     for material in town.materials:
         if material.name.endswith("lit"):
-            material.emissive = tuple(LIT * component for component in material.emissive)
+            material.emissive = linear([LIT * component for component in material.emissive])
 
 
 def _sun(direction: tuple, color: tuple, intensity: float) -> DirectionalLight:

@@ -11,6 +11,7 @@ import time
 import numpy as np
 
 from ...base.linalg import look_at
+from ...model.materials.linear_colors import linear
 from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight, PointLight
 from ...model.scene.scene import Scene
@@ -27,15 +28,17 @@ def city_scene(world, lights=256, reach=17.0, moving=32):
     The first `moving` lights drive along the street, the others hang in the lamps that are nearest
     to the walk. With more lights than lamps the others float over the roofs.
     """
-    scene = Scene((78, 96, 138), ambient=(0.11, 0.13, 0.20))
+    scene = Scene((78, 96, 138), ambient=linear(0.11, 0.13, 0.20))
     world.add_to(scene)
-    scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.42 * WHITE_INTENSITY))
+    scene.add(
+        DirectionalLight((-0.55, -0.55, -0.45), linear(0.62, 0.66, 0.92), 0.42 * WHITE_INTENSITY)
+    )
     moving = min(moving, lights // 4)
     offsets = world.lamps - np.array(START)
     lamps = world.lamps[np.argsort((offsets * offsets).sum(axis=1), kind="stable")]
     floating = lamps + np.array((0.0, 10.0, 0.0))
     places = np.concatenate([lamps, floating, floating + np.array((0.0, 10.0, 0.0))])
-    settings = {"color": (1.0, 0.74, 0.42), "intensity": 1.5 * WHITE_INTENSITY}
+    settings = {"color": linear(1.0, 0.74, 0.42), "intensity": 1.5 * WHITE_INTENSITY}
     if np.isfinite(reach):
         settings.update(range=reach, falloff="window")
     for place in places[: lights - moving]:

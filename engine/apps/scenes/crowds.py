@@ -11,6 +11,7 @@ import numpy as np
 from ...base import linalg
 from ...extras.lod import DetailedInstances
 from ...model.geometry.mesh import Mesh
+from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.primitives import box, icosphere
 from ...model.scene.lights import DirectionalLight
@@ -19,8 +20,8 @@ from ...stage.viewed_scene import ViewedScene
 from .workloads import make
 
 BACKGROUND = (26, 31, 38)
-SUN_DIRECTION, SUN_COLOR = (-0.4, -0.7, -0.6), (0.8, 0.8, 0.8)
-AMBIENT = (0.2, 0.2, 0.2)
+SUN_DIRECTION, SUN_COLOR = (-0.4, -0.7, -0.6), linear(0.8, 0.8, 0.8)
+AMBIENT = linear(0.2, 0.2, 0.2)
 #: Balls with levels of detail: count per side, spacing, subdivisions of each level, and its colour.
 BALLS_SIDE, BALLS_APART = 60, 3.0
 LEVELS = (5, 4, 3, 2, 1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
+from ...model.materials.linear_colors import linear
 from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ...stage.open_model import open_model
 from ...stage.viewed_scene import ViewedScene
@@ -22,9 +23,11 @@ def showcase() -> ViewedScene:
     scene = viewed.scene
     scene.background = SKY
     viewed.themed = False
-    scene.ambient = (0.20, 0.23, 0.27)
-    scene.add(DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.95 * WHITE_INTENSITY))
-    scene.add(DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18 * WHITE_INTENSITY))
+    scene.ambient = linear(0.20, 0.23, 0.27)
+    scene.add(
+        DirectionalLight((-0.55, -0.75, -0.55), linear(1.0, 0.94, 0.82), 0.95 * WHITE_INTENSITY)
+    )
+    scene.add(DirectionalLight((0.7, -0.25, 0.5), linear(0.65, 0.80, 1.0), 0.18 * WHITE_INTENSITY))
     viewed.title = "default"
     viewed.plays = True
     viewed.period = SHOWCASE_SECONDS

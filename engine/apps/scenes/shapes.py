@@ -11,6 +11,7 @@ import numpy as np
 
 from ...base import linalg
 from ...model.geometry.mesh import Mesh
+from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.primitives import box, icosphere, plane, uv_sphere
@@ -20,7 +21,7 @@ from ...stage.viewed_scene import ViewedScene
 
 BACKGROUND = (14, 16, 22)
 PERIOD = 10.0
-LIGHT_COLORS = ((1.0, 0.32, 0.18), (0.25, 1.0, 0.38), (0.30, 0.42, 1.0))
+LIGHT_COLORS = tuple(map(linear, ((1.0, 0.32, 0.18), (0.25, 1.0, 0.38), (0.30, 0.42, 1.0))))
 LIGHT_INTENSITY = 3.4 * WHITE_INTENSITY
 LIGHT_RADIUS = 1.9
 LIGHT_HEIGHT = 1.5
@@ -39,14 +40,14 @@ def shapes(subdivisions: int | None = None) -> ViewedScene:
         by default 32 and 1.
     """
     parts = subdivisions or 1
-    scene = Scene(BACKGROUND, ambient=(0.04, 0.04, 0.05))
+    scene = Scene(BACKGROUND, ambient=linear(0.04, 0.04, 0.05))
     scene.add(floor(FLOOR_SIZE, FLOOR_SQUARES, segments=parts), name="floor")
     bands = subdivisions or 32
     ball = uv_sphere(0.6, (max(2 * bands, 3), max(bands, 2)))
-    ball.materials = [glossy((0.9, 0.9, 0.9), 90.0)]
+    ball.materials = [glossy(linear(0.9, 0.9, 0.9), 90.0)]
     scene.add(ball, name="sphere", translation=(-0.75, 0.6, 0.15))
     cube = _cut_box(parts)
-    cube.materials = [glossy((0.85, 0.82, 0.75), 40.0)]
+    cube.materials = [glossy(linear(0.85, 0.82, 0.75), 40.0)]
     turned = linalg.quaternion_from_axis_angle((0, 1, 0), math.radians(28.0))
     scene.add(cube, name="box", translation=(0.8, 0.5, -0.1), rotation=turned)
     scene.add(DirectionalLight((-0.3, -1.0, -0.5), intensity=0.12 * WHITE_INTENSITY))
@@ -74,8 +75,8 @@ def shapes(subdivisions: int | None = None) -> ViewedScene:
 
 
 def glossy(color, shininess: float) -> Material:
-    """Return a material with a white highlight; ``color`` is linear."""
-    return Material(color=color, specular=(0.5, 0.5, 0.5), shininess=shininess)
+    """Return a material with a white highlight."""
+    return Material(color=color, specular=linear(0.5, 0.5, 0.5), shininess=shininess)
 
 
 def _cut_box(segments: int) -> Mesh:
@@ -98,7 +99,7 @@ def floor(
     board = np.array([[dark, light], [light, dark]], dtype=np.uint8)
     mesh.uvs = mesh.uvs * (squares / 2)
     texture = Texture(np.kron(board, np.ones((32, 32, 1), dtype=np.uint8)), name="checkerboard")
-    mesh.materials = [Material(texture=texture, specular=(0.12, 0.12, 0.12), shininess=24.0)]
+    mesh.materials = [Material(texture=texture, specular=linear(0.12, 0.12, 0.12), shininess=24.0)]
     return mesh
 
 

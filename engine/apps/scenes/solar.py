@@ -14,6 +14,7 @@ import numpy as np
 from ...base import linalg
 from ...io.loaders import load_texture
 from ...model.geometry.mesh import Mesh
+from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.primitives import uv_sphere
@@ -29,7 +30,7 @@ EARTH_ORBIT, MOON_ORBIT = 3.4, 0.95
 SUN_RADIUS, EARTH_RADIUS, MOON_RADIUS = 1.0, 0.42, 0.14
 EARTH_TILT = 0.41
 STARS, STAR_DISTANCE = 900, 60.0
-GLOW = (1.0, 0.30, 0.03), (1.0, 0.72, 0.30)  # its darkest and its brightest places
+GLOW = (1.0, 0.30, 0.03), (1.0, 0.72, 0.30)  # linear: its darkest and brightest places
 GLOWS = 12
 CRATERS = 160
 MOON_SIZE = 256, 128
@@ -37,12 +38,12 @@ MOON_SIZE = 256, 128
 
 def solar() -> ViewedScene:
     """Return the scene."""
-    scene = Scene(BACKGROUND, ambient=(0.03, 0.03, 0.04))
+    scene = Scene(BACKGROUND, ambient=linear(0.03, 0.03, 0.04))
     scene.add(_stars(), name="stars")
     animator = scene.animator = Animator(scene)
     sun = scene.add(_sun(), name="Sun")
     shine = WHITE_INTENSITY * EARTH_ORBIT**2
-    scene.add(PointLight(color=(1.0, 0.95, 0.86), intensity=shine), parent=sun)
+    scene.add(PointLight(color=linear(1.0, 0.95, 0.86), intensity=shine), parent=sun)
     year = scene.add(name="year")
     place = scene.add(parent=year, translation=(EARTH_ORBIT, 0, 0))
     axis = scene.add(
@@ -88,7 +89,7 @@ def _sun() -> Mesh:
         waves = waves + linalg.sin(9.0 * linalg.dot(middles, direction) + 20.0 * direction[0])
     shade = np.clip((waves * 0.12 + 0.5) * GLOWS, 0, GLOWS - 1)
     glows = np.linspace(*GLOW, GLOWS).tolist()
-    ball.materials = [Material(color=(0, 0, 0), emissive=tuple(glow)) for glow in glows]
+    ball.materials = [Material(color=(0, 0, 0), emissive=linear(glow)) for glow in glows]
     ball.material_ids = shade.astype(np.int32)
     return ball
 

@@ -19,6 +19,7 @@ from ...base import linalg
 from ...extras.worlds import city
 from ...io.loaders import load_mesh, load_texture
 from ...model.geometry.mesh import Mesh
+from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.primitives import uv_sphere
@@ -119,8 +120,8 @@ def spheres_on_a_plane(side: int) -> Workload:
 
 
 def _scene() -> Scene:
-    scene = Scene(background=(26, 31, 38), ambient=(0.2, 0.2, 0.2))
-    scene.add(DirectionalLight((-0.4, -0.7, -0.6), (0.8, 0.8, 0.8)))
+    scene = Scene(background=(26, 31, 38), ambient=linear(0.2, 0.2, 0.2))
+    scene.add(DirectionalLight((-0.4, -0.7, -0.6), linear(0.8, 0.8, 0.8)))
     return scene
 
 

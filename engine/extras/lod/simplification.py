@@ -18,6 +18,7 @@ from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.values import put_values, taken_rows
 from ...model.geometry.vertex_attributes import attributes_of, vertex_attributes
+from ...model.materials.linear_colors import floats_are_linear
 
 _ATTRIBUTES = ("normals", *vertex_attributes(Mesh))
 
@@ -163,14 +164,15 @@ def _joined(mesh: Mesh, parts: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray
         for name in _ATTRIBUTES
         if (mesh.has_normals if name == "normals" else getattr(mesh, name) is not None)
     }
-    coarse = Mesh(
-        np.concatenate(positions),
-        np.concatenate([part + start for part, start in zip(faces, starts, strict=True)]),
-        materials=mesh.materials,
-        material_ids=np.repeat(ids, [len(part) for part in faces]),
-        crease_angle=mesh.crease_angle,
-        name=mesh.name,
-        **attributes,
-    )
+    with floats_are_linear():
+        coarse = Mesh(
+            np.concatenate(positions),
+            np.concatenate([part + start for part, start in zip(faces, starts, strict=True)]),
+            materials=mesh.materials,
+            material_ids=np.repeat(ids, [len(part) for part in faces]),
+            crease_angle=mesh.crease_angle,
+            name=mesh.name,
+            **attributes,
+        )
     put_values(coarse, taken_rows(mesh.values, vertices=source))
     return coarse

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from .hashing import unit_floats
@@ -109,9 +110,9 @@ def materials() -> list[Material]:
                 name=name,
                 color=color,
                 texture=None if texture is None else _texture(texture),
-                specular=(gloss,) * 3,
+                specular=linear(gloss, gloss, gloss),
                 shininess=shininess,
-                emissive=_EMISSIVE.get(name, (0, 0, 0)),
+                emissive=linear(_EMISSIVE.get(name, (0, 0, 0))),
             )
         )
     return made

@@ -20,7 +20,7 @@ from ...model.environments.environment import (
     environment_of,
     named_environment,
 )
-from ...model.materials.colors import certainly_linear
+from ...model.materials.linear_colors import floats_are_linear
 from ...model.materials.material import TEXTURE_SLOTS, Material
 from ...model.materials.textures import (
     ImageFile,
@@ -136,7 +136,7 @@ class SceneLooks:
         if values.get("attenuation_distance", 0) is None:
             values["attenuation_distance"] = math.inf
         try:
-            with certainly_linear():
+            with floats_are_linear():
                 if not values.keys() <= _MATERIAL_FIELDS:
                     return Material(**values)  # Material reports unknown values
                 material = Material()

@@ -16,6 +16,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, remember_origin
 from ...model.geometry.twins import twin_of
 from ...model.geometry.values import Values
+from ...model.materials.linear_colors import floats_are_linear
 from ...model.materials.material import Material, copy_of
 from ..reading.json_values import JsonValue
 from ..reading.linked_files import LinkedFileError, LinkedFiles
@@ -70,13 +71,14 @@ class SceneMeshes:
         chosen = None if materials is None else self._looks.chosen(materials)
         try:
             angle = _crease_angle(entry, SMOOTH)
-            mesh = Mesh(
-                arrays.pop("positions", ()),
-                **arrays,
-                materials=chosen,
-                crease_angle=angle,
-                name="",
-            )
+            with floats_are_linear():
+                mesh = Mesh(
+                    arrays.pop("positions", ()),
+                    **arrays,
+                    materials=chosen,
+                    crease_angle=angle,
+                    name="",
+                )
             values = entry.get("values")
             if values is not None:
                 mesh.values = {key: _values(held) for key, held in values.members().items()}

@@ -16,6 +16,7 @@ from ...model.geometry.creases import CREASE_ANGLE, SMOOTH
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.values import OF_FACES, Values, check_values, put_values
 from ...model.geometry.vertex_attributes import vertex_attributes
+from ...model.materials.linear_colors import floats_are_linear
 from .smoothing import join_seams
 from .welding import number_rows
 
@@ -77,13 +78,14 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
     corners, count = geometry.corners, len(geometry.positions)
     lines = np.zeros((0, 2), np.int32) if geometry.lines is None else geometry.lines
     if not len(corners) and not len(lines):
-        cloud = Mesh(
-            geometry.positions,
-            points=np.arange(count),
-            crease_angle=SMOOTH,
-            name=name,
-            **_chosen(geometry, None),
-        )
+        with floats_are_linear():
+            cloud = Mesh(
+                geometry.positions,
+                points=np.arange(count),
+                crease_angle=SMOOTH,
+                name=name,
+                **_chosen(geometry, None),
+            )
         _put_values(cloud, geometry, None)
         return cloud
     of_corner = _corner_attributes(geometry)
@@ -93,16 +95,17 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
     for attribute, rows in of_corner.items():
         filler = vertex_attributes(Mesh)[attribute].filler(added, rows)
         attributes[attribute] = np.concatenate([rows[first_corner], filler])
-    mesh = Mesh(
-        _rows(geometry.positions, vertices),
-        faces,
-        lines=vertex_of.reshape(-1, 2),
-        edge_visible=geometry.edge_visible,
-        position_ids=_position_ids(geometry, vertices, bool(of_corner)),
-        crease_angle=SMOOTH if geometry.normals is not None else geometry.crease_angle,
-        name=name,
-        **attributes,
-    )
+    with floats_are_linear():
+        mesh = Mesh(
+            _rows(geometry.positions, vertices),
+            faces,
+            lines=vertex_of.reshape(-1, 2),
+            edge_visible=geometry.edge_visible,
+            position_ids=_position_ids(geometry, vertices, bool(of_corner)),
+            crease_angle=SMOOTH if geometry.normals is not None else geometry.crease_angle,
+            name=name,
+            **attributes,
+        )
     _put_values(mesh, geometry, vertices)
     if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)

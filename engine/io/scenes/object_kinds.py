@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from ...model.materials.colors import is_8bit, linear_color, split_alpha
+from ...model.materials.linear_colors import LinearColor
 from ...model.scene.ambient_lights import HemisphereLight, LightProbe
 from ...model.scene.cameras import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
 from ...model.scene.lights import DIRECT_LIGHTS
@@ -26,6 +28,7 @@ KINDS: dict[str, type] = {
     "intrinsics camera": IntrinsicsCamera,
     "camera": Camera,
 }
+_COLORS = {"ambient", "background", "bottom", "color", "emissive", "specular", "top"}
 # Parameters stored under another name.
 _HELD: dict[tuple[type, str], str] = {(Camera, "projection"): "matrix"}
 
@@ -47,10 +50,16 @@ def values_of(obj: Any) -> dict[str, Any]:
     found = {}
     kind: type = type(obj)
     for name, default in parameters(kind).items():
-        value = plain(getattr(obj, _HELD.get((kind, name), name)))
-        if value != plain(default):
+        value = written(name, getattr(obj, _HELD.get((kind, name), name)))
+        if value != written(name, default):
             found[name] = value
     return found
+
+
+def written(name: str, value: Any) -> Any:
+    """Return an attribute's value as JSON; the floats of colours are linear light."""
+    is_color = name in _COLORS or name.endswith("_color")
+    return _color(value) if is_color and isinstance(value, tuple) else plain(value)
 
 
 def plain(value: Any) -> Any:
@@ -62,3 +71,14 @@ def plain(value: Any) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     return None if isinstance(value, float) and math.isinf(value) else value
+
+
+def _color(value: Any) -> list[Any]:
+    """Return a colour as files have it: 8-bit values, or floats of linear light."""
+    is_same = isinstance(value, LinearColor) or all(part in (0, 1) for part in value)
+    if is_same and np.uint8 not in map(type, value):
+        return list(value)
+    if is_8bit(value) and max(value) > 1:
+        return [int(part) for part in value]
+    rgb, alpha = split_alpha(value)
+    return [*linear_color(rgb).tolist(), *([alpha] if len(value) == 4 else [])]

@@ -16,6 +16,7 @@ from ...base import linalg
 from ...base.calls import checks_types
 from ...errors import InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE
+from ...model.materials.linear_colors import LinearColor
 from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight, PointLight
 from ...model.scene.scene import Scene
@@ -108,9 +109,9 @@ def _try_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
 
 def _add_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
     """Add a light; file lights have no falloff, so match their brightness at the scene's centre."""
-    color = tuple(float(component) for component in record.color)
+    color = LinearColor(float(component) for component in record.color)
     if record.kind == "ambient":
-        scene.ambient = tuple(component * record.intensity for component in color)
+        scene.ambient = LinearColor(component * record.intensity for component in color)
         return
     strength = record.intensity * WHITE_INTENSITY
     if record.kind == "directional" and record.target is not None:

@@ -13,6 +13,7 @@ from typing import Any
 
 from ...errors import InvalidArgumentError
 from ...model.environments.environment import Environment
+from ...model.materials.linear_colors import floats_are_linear
 from ...model.scene.fog import ExponentialFog, Fog
 from ...model.scene.gradients import Gradient
 from ...model.scene.instances import InstancedMesh
@@ -31,7 +32,15 @@ _NODE_KEYS |= {"cast_shadows", "receive_shadows", "collider", "children", *MOTIO
 
 
 def fill_scene(scene: Scene, record: SceneRecord) -> None:
-    """Add the nodes of a record to an empty scene, and apply its background and light."""
+    """Add the nodes of a record to an empty scene, and apply its background and light.
+
+    The floats of its colours are linear light.
+    """
+    with floats_are_linear():
+        _fill(scene, record)
+
+
+def _fill(scene: Scene, record: SceneRecord) -> None:
     values = record.values.members()
     full_rate_distance = values.pop("full_rate_distance", None)
     for key, value in values.items():

@@ -18,6 +18,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.geometry.normals import unit_vectors
 from ...model.geometry.values import put_values
 from ...model.geometry.vertex_attributes import attributes_of
+from ...model.materials.linear_colors import floats_are_linear, marked
 from ..reading.documents import MeshRecord, NodeRecord, SkinRecord, TreeRecord
 
 _IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
@@ -134,7 +135,7 @@ class RestPose:
 def _tinted(mesh: Mesh, color: np.ndarray) -> Mesh:
     """Return a mesh with multiplied vertex colours; glTF vertex colours are floats."""
     held = np.ones((len(mesh.positions), 4), np.float32) if mesh.colors is None else mesh.colors
-    return _changed(mesh, {"colors": held * color})
+    return _changed(mesh, {"colors": marked(held * color)})
 
 
 def _morphed(mesh: Mesh, weights: np.ndarray) -> Mesh:
@@ -208,16 +209,17 @@ def _changed(mesh: Mesh, arrays: dict[str, np.ndarray]) -> Mesh:
     held = {"positions": mesh.positions, **attributes_of(mesh)}
     if mesh.has_normals:
         held["normals"] = mesh.normals
-    changed = type(mesh)(
-        **{**held, **arrays},
-        faces=mesh.faces,
-        materials=mesh.materials,
-        material_ids=mesh.material_ids,
-        lines=mesh.lines,
-        points=mesh.points,
-        position_ids=mesh.position_ids,
-        crease_angle=mesh.crease_angle,
-        name=mesh.name,
-    )
+    with floats_are_linear():
+        changed = type(mesh)(
+            **{**held, **arrays},
+            faces=mesh.faces,
+            materials=mesh.materials,
+            material_ids=mesh.material_ids,
+            lines=mesh.lines,
+            points=mesh.points,
+            position_ids=mesh.position_ids,
+            crease_angle=mesh.crease_angle,
+            name=mesh.name,
+        )
     put_values(changed, mesh.values)
     return changed

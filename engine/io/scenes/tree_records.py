@@ -18,6 +18,7 @@ from ..._native.loaders import frozen
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
+from ...model.materials.linear_colors import floats_are_linear, linear
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...model.scene.instances import InstancedMesh
@@ -170,7 +171,8 @@ class _Filling:
         colors = record.instance_colors
         key = id(mesh), id(poses), id(colors)
         if key not in self._instances:
-            made = self._instances[key] = InstancedMesh(mesh, poses, colors=colors)
+            held = None if colors is None else linear(colors)
+            made = self._instances[key] = InstancedMesh(mesh, poses, colors=held)
             records[made] = InstanceWords(made.poses, record.instance_parts)
         return self._instances[key]
 
@@ -298,7 +300,8 @@ class _Filling:
 
         try:
             times, values = self._shared(record.times), self._shared(record.values)
-            return PropertyChannel(target, record.path, times, values, record.interpolation)
+            with floats_are_linear():
+                return PropertyChannel(target, record.path, times, values, record.interpolation)
         except InvalidArgumentError as error:
             what = f"{record.path} of {record.kind} {record.number}"
             self._scene.warnings.append(f"animation {clip!r}: {what} stays: {error}")
@@ -352,4 +355,4 @@ def _light(record: LampRecord) -> Light:
     held = {name: getattr(record, name) for name in parameters(light) if hasattr(record, name)}
     if light is PointLight:
         held["falloff"] = "inverse_square" if math.isinf(record.range) else "gltf"
-    return light(**held)
+    return light(**{**held, "color": linear(record.color)})

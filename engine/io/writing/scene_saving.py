@@ -41,7 +41,7 @@ from ..formats.gltf import gltf_writer as gltf
 from ..formats.scene_file import FORMAT, LISTS, VERSION
 from ..reading.json_values import ARRAY_TYPES
 from ..scenes.motion_records import motion_entries
-from ..scenes.object_kinds import kind_of, parameters, plain, values_of
+from ..scenes.object_kinds import kind_of, parameters, plain, values_of, written
 
 _ENVIRONMENT_VALUES = {
     "environment_intensity": 1.0,
@@ -129,7 +129,7 @@ def _compact(value: Any) -> str:
 
 def _fields(value: Fog | ExponentialFog | Gradient) -> dict[str, Any]:
     """Return the parameters of an immutable value."""
-    return {one.name: plain(getattr(value, one.name)) for one in fields(value)}
+    return {one.name: written(one.name, getattr(value, one.name)) for one in fields(value)}
 
 
 class _Writing:
@@ -175,9 +175,9 @@ class _Writing:
 
     def values(self, scene: Scene) -> dict[str, Any]:
         """Write the scene's own values; those of environments only if not default."""
-        values: dict[str, Any] = {"background": None, "ambient": plain(scene.ambient)}
+        values: dict[str, Any] = {"background": None, "ambient": written("ambient", scene.ambient)}
         if isinstance(scene.background, tuple):
-            values["background"] = plain(scene.background)
+            values["background"] = written("background", scene.background)
         if isinstance(scene.background, Environment):
             number = self._number("environments", scene.background, self._environment)
             values["background"] = {"environment": number}
@@ -297,8 +297,8 @@ class _Writing:
             elif name == "extras":
                 if value and self._is_json(value, material):
                     entry[name] = value
-            elif plain(value) != plain(default):
-                entry[name] = plain(value)
+            elif (held := written(name, value)) != written(name, default):
+                entry[name] = held
         return entry
 
     def _slot(self, value: Texture | PlacedTexture) -> int | dict[str, Any]:

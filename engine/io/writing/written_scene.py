@@ -16,7 +16,8 @@ import numpy as np
 from ...base import linalg
 from ...base.numbers import shown
 from ...model.geometry.mesh import Mesh
-from ...model.materials.colors import linear_color
+from ...model.materials.colors import linear_color, linear_rows
+from ...model.materials.linear_colors import LinearColor
 from ...model.materials.material import Material
 from ...model.motion.properties import PropertyChannel
 from ...model.scene.cameras import OrthographicCamera, PerspectiveCamera
@@ -378,10 +379,7 @@ def _poses(instanced: InstancedMesh) -> np.ndarray:
 
 def _linear(colors: np.ndarray | None) -> np.ndarray | None:
     """Return instance colours in linear light, (N, 4) float32."""
-    if colors is None or colors.dtype != np.uint8:
-        return None if colors is None else colors.clip(0, 1)
-    decoded = [(*linear_color(tuple(row[:3])), row[3] / 255) for row in colors.tolist()]
-    return np.array(decoded, np.float32).reshape(-1, 4)
+    return None if colors is None else linear_rows(colors).clip(0, 1)
 
 
 def _lens(camera: PerspectiveCamera | OrthographicCamera) -> LensRecord:
@@ -399,9 +397,8 @@ def _lens(camera: PerspectiveCamera | OrthographicCamera) -> LensRecord:
 
 def _lamp(light: DirectLight) -> LampRecord:
     came = records.get(light, LampRecord("point"))
-    color = tuple(map(float, light.color))
-    if not all(isinstance(part, float) for part in light.color):
-        color = tuple(map(float, linear_color(light.color)))
+    is_linear = isinstance(light.color, LinearColor)
+    color = tuple(light.color if is_linear else linear_color(light.color).tolist())
     held = {name: getattr(light, name) for name in _REACH if hasattr(light, name)}
     common = {"name": came.name, "color": color, "extras": came.extras}
     return LampRecord(light.kind, intensity=light.intensity, **common, **held)

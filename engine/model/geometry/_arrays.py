@@ -17,7 +17,8 @@ import numpy as np
 from ..._native.loaders import frozen, is_frozen
 from ...base.numbers import as_array
 from ...errors import InvalidArgumentError, warn
-from ..materials.colors import eight_bit_or_float
+from ..materials.colors import eight_bit_or_linear
+from ..materials.linear_colors import marked
 
 _INT32_MAX = 2**31 - 1
 
@@ -91,17 +92,16 @@ def check_vectors4(value: Any, what: str) -> np.ndarray:
 
 
 def check_colors(value: Any, what: str) -> np.ndarray:
-    """Return (N, 4) uint8 or float32; three components get an opaque alpha."""
-    array = as_array(value, what)
+    """Return (N, 4) uint8 or linear float32; three components get an opaque alpha."""
+    array = eight_bit_or_linear(value, what)
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise InvalidArgumentError(f"{what} must be (N, 3) or (N, 4), got {array.shape}")
-    array = eight_bit_or_float(array, what)
     if array.shape[1] == 4:
-        return _frozen(array, array.dtype)
+        return marked(_frozen(array, array.dtype))
     widened = np.empty((len(array), 4), array.dtype)
     widened[:, :3] = array
     widened[:, 3] = 255 if array.dtype == np.uint8 else 1
-    return _frozen(widened, array.dtype)
+    return marked(_frozen(widened, array.dtype))
 
 
 def check_indices(value: Any, what: str) -> np.ndarray:

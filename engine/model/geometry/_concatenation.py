@@ -14,7 +14,8 @@ import numpy as np
 from ...base.linalg import compose
 from ...base.validation import matrix4
 from ...errors import InvalidArgumentError
-from ..materials.colors import srgb_to_linear_table
+from ..materials.colors import linear_rows
+from ..materials.linear_colors import floats_are_linear
 from ..materials.material import Material
 from .creases import mesh_with_creases
 from .groups import put_groups
@@ -60,20 +61,21 @@ def concatenate(mesh_type: type, meshes: list[Any], name: str) -> Any:
         return mesh_type(np.zeros((0, 3), np.float32), name=name)
     starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])[:-1]
     materials, material_ids = _joined_materials(meshes)
-    joined = mesh_type(
-        np.concatenate([mesh.positions for mesh in meshes]),
-        _moved(meshes, starts, "faces"),
-        normals=_joined_normals(meshes),
-        materials=materials,
-        material_ids=material_ids,
-        lines=_moved(meshes, starts, "lines"),
-        points=_moved(meshes, starts, "points"),
-        edge_visible=_joined_edge_flags(meshes),
-        position_ids=_joined_position_ids(meshes),
-        crease_angle=meshes[0].crease_angle,
-        name=name,
-        **_joined_attributes(meshes),
-    )
+    with floats_are_linear():
+        joined = mesh_type(
+            np.concatenate([mesh.positions for mesh in meshes]),
+            _moved(meshes, starts, "faces"),
+            normals=_joined_normals(meshes),
+            materials=materials,
+            material_ids=material_ids,
+            lines=_moved(meshes, starts, "lines"),
+            points=_moved(meshes, starts, "points"),
+            edge_visible=_joined_edge_flags(meshes),
+            position_ids=_joined_position_ids(meshes),
+            crease_angle=meshes[0].crease_angle,
+            name=name,
+            **_joined_attributes(meshes),
+        )
     put_groups(joined, _joined_groups(meshes))
     put_values(joined, joined_values(meshes))
     joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
@@ -132,7 +134,7 @@ def _joined_attribute(
     given = [array for array in arrays if array is not None]
     if len({array.dtype for array in given}) > 1:
         arrays = [
-            _linear_from_bytes(array) if array is not None and array.dtype == np.uint8 else array
+            linear_rows(array) if array is not None and array.dtype == np.uint8 else array
             for array in arrays
         ]
         given = [array for array in arrays if array is not None]
@@ -142,12 +144,6 @@ def _joined_attribute(
             for array, count in zip(arrays, counts, strict=True)
         ]
     )
-
-
-def _linear_from_bytes(colors: np.ndarray) -> np.ndarray:
-    linear = srgb_to_linear_table()[colors]
-    linear[:, 3] = colors[:, 3].astype(np.float64) / 255
-    return linear
 
 
 def _joined_edge_flags(meshes: Any) -> Any:

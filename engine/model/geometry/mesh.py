@@ -78,9 +78,11 @@ class Mesh(Closed):
     tangents : (V, 4) float, optional
         The tangent (the normal map's right) and 1 or -1: the bitangent (its up) is this sign times
         ``cross(normal, tangent)``.
-    colors : (V, 3) or (V, 4) int or float, optional
-        Vertex colours: integers 0..255 are sRGB, floats are linear light; integers that are all 0
-        or 1 mean 0.0 and 1.0, unless they are ``uint8``. Alpha is opaque if left out.
+    colors : (V, 3) or (V, 4) int or float, or V colours, optional
+        Vertex colours, display values: integers 0..255 or floats 0..1, unless they are marked as
+        `linear`; or a list of names and other colours. Integers that are all 0 or 1 mean 0.0 and
+        1.0, unless they are ``uint8``. Alpha is opaque if left out. Floats are kept as linear
+        light, and marked so.
     materials : list of Material, optional
         One default material if left out.
     material_ids : (F,) int, optional

@@ -11,17 +11,21 @@ import math
 from typing import Any
 
 from ...choices import ColorSpace
-from .colors import linear_color
+from .colors import check_surface_color, linear_color, split_alpha
 
 
 def shading_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
     """Return a colour in the space in which lighting is computed."""
-    return _shading_color(value, tuple(map(type, value)), color_space)
+    return _shading_color(value, _types(value), color_space)
 
 
 def display_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
     """Return the display values of a colour after a lit frame's encoder."""
-    return _display_color(value, tuple(map(type, value)), color_space)
+    return _display_color(value, _types(value), color_space)
+
+
+def _types(value: tuple[Any, ...]) -> tuple[type, ...]:
+    return type(value), *map(type, value)
 
 
 # The types are part of the key: 255 and 255.0 compare equal, but 255 is an sRGB code and 255.0 a
@@ -49,6 +53,13 @@ def exact_display_color(
     else:
         red, green, blue = map(srgb_value, linear)
     return red, green, blue
+
+
+def rgba_codes(color: Any, what: str = "color") -> bytes:
+    """Return the 8-bit display values of a colour, four with alpha."""
+    rgb, alpha = split_alpha(check_surface_color(color, what))
+    codes = display_color(rgb, "srgb")
+    return bytes([round(255 * code) for code in codes] + [int(255 * alpha + 0.5)])
 
 
 def srgb_value(value: float) -> float:

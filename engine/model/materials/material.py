@@ -1,8 +1,8 @@
 """Materials: the numbers and textures that shading reads.
 
-A `Material` is plain data, with the fields of glTF 2.0. Colours are kept as given (floats are
-linear light, 8-bit integers sRGB; see `colors`) and converted to linear when the renderer reads
-them. ``extras`` keeps everything else that a file says.
+A `Material` is plain data, with the fields of glTF 2.0. Colours are kept as given (words as 8-bit
+values; see `colors`) and converted to linear light when the renderer reads them. ``extras`` keeps
+everything else that a file says.
 
 To add a number, add a row here and a member of e3d_physical (csrc/include/e3d_material.h): with the
 same name if the core takes the value unchanged, else with a conversion in

@@ -60,6 +60,7 @@ class Kind(NamedTuple):
         The range within which clips and the editor may change it.
     width : int
         How many numbers a value has; 0 if it is not numeric.
+    is_color : bool
     """
 
     check: Callable[[Any, str], Any]
@@ -68,6 +69,7 @@ class Kind(NamedTuple):
     low: float = -math.inf
     high: float = math.inf
     width: int = 0
+    is_color: bool = False
 
 
 def _above(least: float, words: str, *others: float) -> Callable[[float, str], float]:
@@ -103,8 +105,10 @@ def _check_texture(value: SlotTexture, what: str) -> SlotTexture:
     return value
 
 
-SURFACE_COLOR = Kind(check_surface_color, "ColorLike", "sequence of 3 or 4 numbers", 0.0, width=4)
-COLOR = Kind(check_color, "ColorLike", "sequence of 3 numbers", 0.0, width=3)
+SURFACE_COLOR = Kind(
+    check_surface_color, "ColorLike", "colour, also with alpha", 0.0, width=4, is_color=True
+)
+COLOR = Kind(check_color, "ColorLike", "colour", 0.0, width=3, is_color=True)
 SHARE = Kind(fraction, "float", "float, from 0 to 1", 0.0, 1.0, 1)
 SHARE_OR_NONE = Kind(optional_fraction, "float | None", "float, from 0 to 1, optional", 0.0, 1.0, 1)
 NOT_NEGATIVE = Kind(not_negative, "float", "float, 0 or more", 0.0, width=1)

@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from ...base.validation import choose
 from ...choices import Interpolation
 from ...errors import InvalidArgumentError
-from ..materials.colors import certainly_linear, linear_color
+from ..materials.colors import eight_bit_or_linear, linear_color, linear_rows
+from ..materials.linear_colors import LinearColor, is_linear, marked
 from ..materials.material import PARAMETERS, TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
@@ -39,15 +40,17 @@ class Range(NamedTuple):
     is_kept : bool
         Whether values are clamped to the range of the keys, which splines may exceed: another
         property limits this one.
+    is_color : bool
     """
 
     low: float = -math.inf
     high: float = math.inf
     width: int = 1
     is_kept: bool = False
+    is_color: bool = False
 
 
-_POSITIVE, _COLOR = Range(0.0), Range(0.0, width=3)
+_POSITIVE, _COLOR = Range(0.0), Range(0.0, width=3, is_color=True)
 _DEPTH = Range(_LEAST, is_kept=True)
 _CONE = Range(0.0, math.pi / 2, is_kept=True)
 _LIGHT = {  # the properties of all light kinds
@@ -61,7 +64,7 @@ _PLACES = {"offset": Range(width=2), "rotation": Range(), "scale": Range(width=2
 _PROPERTIES: dict[type, dict[str, Range]] = {
     Material: {
         **{
-            name: Range(row.kind.low, row.kind.high, row.kind.width)
+            name: Range(row.kind.low, row.kind.high, row.kind.width, is_color=row.kind.is_color)
             for name, row in PARAMETERS.items()
             if row.kind.width
         },
@@ -130,7 +133,7 @@ class Property(NamedTuple):
             moved: dict[str, Any] = {name: values if limits.width > 1 else values[0]}
             self._set(slot, replace(_placed(getattr(target, slot)), **moved))
         else:
-            self._set(path, values if limits.width > 1 else values[0])
+            self._set(path, LinearColor(values) if limits.is_color else values[0])
 
     def restore(self, held: Any) -> None:
         """Restore the property's earlier value."""
@@ -141,8 +144,7 @@ class Property(NamedTuple):
         before = getattr(self.target, name)
         if type(before) is type(value) and np.array_equal(before, value):
             return  # renderers rebuild only what changes
-        with certainly_linear():
-            setattr(self.target, name, value)
+        setattr(self.target, name, value)
 
     def _put_weight(self, value: float) -> None:
         held, number = self.held(), int(self.path[len(_WEIGHT) :])
@@ -194,12 +196,12 @@ class PropertyChannel(Keyed):
         material's ``"color"`` has four numbers), and a texture's transform, such as
         ``"normal_texture.offset"``, ``".rotation"`` or ``".scale"``. Cameras: ``"yfov"`` or
         ``"ymag"``, ``"znear"``, ``"zfar"``. Nodes: ``"visible"`` (true from 0.5 on), and single
-        morph weights, ``"weights.0"``. Colours are linear light.
+        morph weights, ``"weights.0"``. Colours change in linear light.
     times : (K,) float
         As in `Channel`.
     values : (K, N) float, or (K, 3, N) for splines
         N is how many numbers a value has. Values of a spline outside the property's range are
-        clamped.
+        clamped. Colours are as those of `Mesh`, names too; those of splines are ``linear(values)``.
     interpolation : {"linear", "step", "cubicspline"}
 
     Raises
@@ -221,7 +223,8 @@ class PropertyChannel(Keyed):
         self._interpolation = choose(interpolation, INTERPOLATIONS, "interpolation")
         self._times = check_times(times)
         middle = (3,) if interpolation == "cubicspline" else ()
-        self._values = _checked(values, (len(self._times), *middle, limits.width), path)
+        shape = (len(self._times), *middle, limits.width)
+        self._values = (_colors if limits.is_color else _checked)(values, shape, path)
         keys = self._values[:, 1] if middle else self._values
         self._hull = (keys.min(axis=0), keys.max(axis=0)) if limits.is_kept else None
 
@@ -259,3 +262,13 @@ def _checked(value: ArrayLike, shape: tuple[int, ...], path: str) -> NDArray[np.
     if not np.isfinite(values).all():
         raise InvalidArgumentError("values must be finite")
     return values
+
+
+def _colors(value: ArrayLike, shape: tuple[int, ...], path: str) -> NDArray[np.float64]:
+    """Return checked colours in linear light, marked as such."""
+    if not is_linear(value):
+        if len(shape) > 2:
+            raise InvalidArgumentError(f"splines of {path} are in linear light: linear(values)")
+        colors = eight_bit_or_linear(value, "values")
+        value = linear_rows(colors)[..., : max(shape[-1], 3)] if colors.ndim == 2 else colors
+    return marked(_checked(value, shape, path))

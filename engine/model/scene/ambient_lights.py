@@ -36,7 +36,7 @@ class HemisphereLight(Closed):
 
     Parameters
     ----------
-    sky_color, ground_color : sequence of 3 numbers
+    sky_color, ground_color : str or sequence of 3 numbers
     intensity : float
         Multiplies both; a white surface that faces the sky shows ``sky_color * intensity``, with
         any material. (three.js divides by pi, so its values are pi times larger.)

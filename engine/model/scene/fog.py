@@ -23,7 +23,7 @@ class Fog:
 
     Parameters
     ----------
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
         The colour at full fog, independent of exposure and tone mapping. The background's colour
         hides the end of the scene.
     near, far : float
@@ -55,7 +55,7 @@ class ExponentialFog:
 
     Parameters
     ----------
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
         As in `Fog`.
     density : float
         Per world unit: at a depth of ``1.5 / density`` a tenth of a colour remains.

@@ -21,7 +21,7 @@ class Gradient:
 
     Parameters
     ----------
-    top, bottom : sequence of 3 numbers
+    top, bottom : str or sequence of 3 numbers
 
     Raises
     ------

@@ -16,11 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 from ..._native.loaders import frozen
 from ..._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
 from ...base.dirty_tracking import renew
-from ...base.numbers import as_array, floats
+from ...base.numbers import floats
 from ...base.validation import CheckedAttribute, Closed
 from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..materials.colors import eight_bit_or_float, float32_of
+from ..materials.colors import eight_bit_or_linear, float32_of
+from ..materials.linear_colors import marked
 
 #: Drawing builds a tree of boxes for at least this many instances.
 MANY = 1024
@@ -40,9 +41,8 @@ class InstancedMesh(Closed):
     mesh : Mesh
     poses : (N, 4, 4) or (N, 4) float
         node-from-instance matrices, or offset x, y, z and uniform scale. N may be 0.
-    colors : (N, 3) or (N, 4) int or float, optional
-        Multiplies the mesh's colours: integers 0..255 are sRGB, floats are linear. Alpha is
-        ignored.
+    colors : (N, 3) or (N, 4) int or float, or N colours, optional
+        Multiply the mesh's colours: as those of `Mesh`. Alpha is ignored.
 
     Attributes
     ----------
@@ -202,11 +202,10 @@ def _check_poses(value: ArrayLike) -> NDArray[np.float32]:
 def _check_colors(value: ArrayLike | None, count: int) -> NDArray[Any] | None:
     if value is None:
         return None
-    colors = as_array(value, "colors")
+    colors = eight_bit_or_linear(value, "colors")
     if colors.shape not in ((count, 3), (count, 4)):
         raise InvalidArgumentError(f"colors must be ({count}, 3 or 4), not {colors.shape}")
-    colors = eight_bit_or_float(colors, "colors")
     opaque = 255 if colors.dtype == np.uint8 else 1
     result = np.full((count, 4), opaque, colors.dtype)
     result[:, : colors.shape[1]] = colors
-    return frozen(result)
+    return marked(frozen(result))

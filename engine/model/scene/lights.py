@@ -1,9 +1,9 @@
 """Direct lights: plain data, placed in the world by the scene's nodes.
 
-A light's colour (floats are linear light, 8-bit integers sRGB) is multiplied by its intensity.
-Directional lights shine along their node's rotated ``direction``, point lights from their node's
-origin, spot lights from there along its -Z. docs/exactness, sections 9 and 12, has the formulas;
-docs/conventions.md has the units of intensities.
+A light's colour (a display value, unless it is marked as `linear` light) is multiplied by its
+intensity. Directional lights shine along their node's rotated ``direction``, point lights from
+their node's origin, spot lights from there along its -Z. docs/exactness, sections 9 and 12, has the
+formulas; docs/conventions.md has the units of intensities.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from ...base.validation import (
 from ...choices import ColorLike, Falloff, LightShadow, ShadowTaps
 from ...errors import InvalidArgumentError
 from ..materials.colors import check_color
+from ..materials.linear_colors import linear
 from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
 from .shadow_casting import CastsShadows, CountAttribute, count_of
 
@@ -79,7 +80,7 @@ class DirectionalLight(DirectLight):
     ----------
     direction : (3,) float
         The direction in which the light travels, in node space; any nonzero length.
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
     intensity : float
         In lux. A white matt surface that faces the light shows ``color * intensity / pi``, whatever
         its material is: ``color`` by default.
@@ -154,8 +155,8 @@ class DirectionalLight(DirectLight):
         (x, y, z), haze = daylight_arguments(sun_direction, turbidity)
         light = sunlight((x, y, z), haze)
         most = max(light)
-        red, green, blue = (component / most for component in light)
-        return cls((-x, -y, -z), (red, green, blue), most)
+        color = linear([component / most for component in light])
+        return cls((-x, -y, -z), color, most)
 
     def __repr__(self) -> str:
         direction = tuple(self.direction.tolist())
@@ -167,7 +168,7 @@ class PointLight(DirectLight):
 
     Parameters
     ----------
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
     intensity : float
         In candela: as for `DirectionalLight`, at distance 1 unless the falloff is ``"window"``.
     range : float
@@ -231,7 +232,7 @@ class SpotLight(DirectLight):
 
     Parameters
     ----------
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
     intensity : float
         As for `PointLight`, on the axis.
     range : float

@@ -21,6 +21,7 @@ from ...base.numbers import shown
 from ...base.validation import flag, text, vector3
 from ...choices import ColorLike
 from ...errors import InvalidArgumentError
+from ...model.materials.linear_colors import linear
 from ..environments.environment import Environment
 from ._queries import SceneQueries
 from .gradients import Gradient
@@ -34,16 +35,18 @@ if TYPE_CHECKING:
     from .animation import Animator
     from .nodes import SceneObject
 
+_DIM = linear(0.1, 0.1, 0.1)
+
 
 class Scene(Surroundings, SceneQueries):
     """A tree of nodes to draw, with a background and ambient light.
 
     Parameters
     ----------
-    background : sequence of 3 numbers, Gradient, Environment or None
+    background : str or sequence of 3 numbers, Gradient, Environment or None
         The background: a colour, a gradient, or the environment as the camera sees it; None is
         transparent black (alpha 0).
-    ambient : sequence of 3 numbers
+    ambient : str or sequence of 3 numbers
         Light that reaches every surface from all sides; physical materials also reflect it, as
         uniform surroundings.
     light_clamp : (low, high), optional
@@ -86,7 +89,7 @@ class Scene(Surroundings, SceneQueries):
     def __init__(
         self,
         background: ColorLike | Gradient | Environment | None = (0, 0, 0),
-        ambient: ColorLike = (0.1, 0.1, 0.1),
+        ambient: ColorLike = _DIM,
         light_clamp: Sequence[float] | None = None,
         exposure: float = 0.0,
     ) -> None:

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...base.numbers import as_array
 from ...errors import InvalidArgumentError
 from ...io.loaders import load_texture
+from ...model.materials.color_names import color_of_word
 
 #: The choices of a colour map: see `colormap`.
 ColormapLike: TypeAlias = str | ArrayLike | Callable[[Any], Any]
@@ -102,8 +103,6 @@ def _table(places: NDArray[np.float64], colors: NDArray[np.float64]) -> NDArray[
 
 def _placed(text: str) -> NDArray[np.uint8]:
     """Return the table for positions with colours."""
-    from PIL import ImageColor
-
     parts = [part.strip() for part in _PART.findall(text)]
     try:
         if len(parts) % 4 == 0 and all(_NUMBER.fullmatch(part) for part in parts):
@@ -111,7 +110,7 @@ def _placed(text: str) -> NDArray[np.uint8]:
             places, colors = numbers[:, 0], numbers[:, 1:].clip(0.0, 1.0) * 255.0
         else:
             places = np.array(parts[::2], np.float64)
-            colors = np.array([ImageColor.getrgb(part)[:3] for part in parts[1::2]], np.float64)
+            colors = np.array([color_of_word(part)[:3] for part in parts[1::2]], np.float64)
     except ValueError as error:
         raise InvalidArgumentError(f"{text!r} is no list of places and colours: {error}") from None
     is_rising = len(places) == len(colors) > 1 and (np.diff(places) > 0).all()

@@ -111,7 +111,7 @@ class PropertiesPanel:
             self._set([thing], {name: new / factor})
 
     def _color(self, thing, name: str, label: str) -> None:
-        color, alpha = split_alpha(tuple(getattr(thing, name)))
+        color, alpha = split_alpha(getattr(thing, name))
         changed, new = imgui.color_edit3(label, list(display_color(color, "srgb")))
         self._follow_drag()
         if changed:

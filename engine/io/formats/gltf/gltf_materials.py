@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ....errors import InvalidArgumentError
-from ....model.materials.colors import certainly_linear
+from ....model.materials.linear_colors import floats_are_linear
 from ....model.materials.material import PARAMETERS, TEXTURE_SLOTS, Material, imply
 from ....model.materials.textures import PlacedTexture, Texture
 from .gltf_file import Entry, GltfFile, whole_of
@@ -274,7 +274,7 @@ class GltfMaterials:
             "extras": self._extras(entry, where),
         }
         material = Material(name=values.pop("name"))
-        with certainly_linear():
+        with floats_are_linear():
             for field, value in values.items():
                 self._file.sound(f"{where}.{field}", self._put, material, field, value)
         return material

@@ -21,6 +21,7 @@ from ....model.geometry.morph_targets import MorphTarget
 from ....model.geometry.native_meshes import find_tangents_when_drawn
 from ....model.geometry.twins import twin_of
 from ....model.geometry.values import Values, joined_rows, put_values
+from ....model.materials.linear_colors import floats_are_linear
 from ....model.materials.material import Material
 from ....model.materials.textures import PlacedTexture
 from ...reading.documents import MeshRecord
@@ -149,15 +150,16 @@ class GltfMeshes:
             sizes = [len(part) for part in elements]
             self._buffers.count(sum(sizes))
             ids = np.repeat(np.arange(len(primitives), dtype=np.int32), sizes)
-        mesh = Mesh(
-            arrays.pop("positions"),
-            **{kind: self._joined(elements)},
-            materials=[_NO_MATERIAL] * len(primitives),
-            material_ids=ids,
-            crease_angle=SMOOTH,
-            name="",
-            **arrays,
-        )
+        with floats_are_linear():
+            mesh = Mesh(
+                arrays.pop("positions"),
+                **{kind: self._joined(elements)},
+                materials=[_NO_MATERIAL] * len(primitives),
+                material_ids=ids,
+                crease_angle=SMOOTH,
+                name="",
+                **arrays,
+            )
         put_values(mesh, self._values_of(primitives))
         if flat:
             join_seams(mesh)

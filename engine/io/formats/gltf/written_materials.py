@@ -12,6 +12,7 @@ from typing import Any
 
 from ...._native.images import encode_png
 from ....model.materials.colors import linear_color
+from ....model.materials.linear_colors import LinearColor
 from ....model.materials.material import Material, is_implied
 from ....model.materials.textures import PlacedTexture, Texture, image_file_of
 from ...writing.losses import lost_of_reading
@@ -224,9 +225,7 @@ def _value(material: Material, field: str) -> Any:
 
 
 def _linear(color: tuple[Any, ...]) -> tuple[float, ...]:
-    if all(isinstance(part, float) for part in color):
-        return tuple(color)
-    return tuple(map(float, linear_color(color)))
+    return tuple(color if isinstance(color, LinearColor) else linear_color(color).tolist())
 
 
 def _physical(material: Material) -> tuple[float, float]:

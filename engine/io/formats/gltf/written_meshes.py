@@ -13,7 +13,7 @@ import numpy as np
 from ....model.geometry.mesh import Mesh
 from ....model.geometry.movers import shares
 from ....model.geometry.normals import vertex_normals
-from ....model.materials.colors import srgb_to_linear_table
+from ....model.materials.colors import linear_rows
 from ...reading.documents import MeshRecord
 from ...reading.vertex_values import usable_normals
 from ...writing.written_scene import materials_of_faces
@@ -214,7 +214,5 @@ def _as_stored(array: np.ndarray, name: str) -> np.ndarray:
         np.subtract(np.float32(1), array[:, 1], out=stored[:, 1])
         return stored
     if array.dtype == np.uint8:
-        linear = srgb_to_linear_table()[array]
-        linear[:, 3] = array[:, 3].astype(np.float64) / 255
-        return linear
+        return linear_rows(array)
     return np.nan_to_num(array).clip(0, 1) if name == "COLOR_0" else array

@@ -1,8 +1,8 @@
 """Wavefront MTL: the material libraries that OBJ files name.
 
-In: the bytes of a library. Out: materials by name. Colours are linear light, as the numbers are
-floats. mtl_alpha.py handles alpha, and mtl_physical.py physically based materials and normal maps.
-All other statements, d and Tr, and all maps with their options are kept in the material's
+In: the bytes of a library. Out: materials by name. Colours are display values, as in
+most programs. mtl_alpha.py handles alpha, and mtl_physical.py physically based materials and normal
+maps. All other statements, d and Tr, and all maps with their options are kept in the material's
 ``extras`` under the file's own keys. An invalid line gives a warning; a library fails only if it is
 not text.
 """
@@ -13,7 +13,11 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from ....errors import Engine3DError
+from ....model.materials.colors import linear_from_display
+from ....model.materials.linear_colors import LinearColor
 from ....model.materials.material import Material
 from ....model.materials.textures import Texture
 from ...reading.linked_files import LinkedFileError
@@ -55,6 +59,7 @@ _UNDRAWN_MAPS = {
     "map_anisor": "anisotropy",
 }
 # Our own keys of ``extras``, which are not statements.
+_WHITE = (1.0, 1.0, 1.0)
 _RESERVED = {"maps", "opacity"}
 
 
@@ -179,10 +184,10 @@ def _material(
 ) -> Material:
     name, _, maps, values = gathered
     texture = load(maps.get("map_Kd"), False)
-    color = values.get("Kd", (1.0, 1.0, 1.0))
+    color = _shown(values.get("Kd", _WHITE))
     if texture is not None and not any(color):
         # Exporters that know only the image write Kd 0 0 0 beside it.
-        color = (1.0, 1.0, 1.0)
+        color = _WHITE
     extras = {key: value for key, value in values.items() if key not in ("Kd", "Ks", "Ke", "Ns")}
     if "d" in values or "Tr" in values:
         extras["opacity"] = _opacity(values)
@@ -192,12 +197,12 @@ def _material(
         }
     material = Material(name=name)
     given = {
-        "color": color if color != (1.0, 1.0, 1.0) else None,
+        "color": color if color != _WHITE else None,
         "texture": texture,
-        "specular": _specular(values) if "Ks" in values else None,
+        "specular": _shown(_specular(values)) if "Ks" in values else None,
         "shininess": max(values["Ns"], 0.0) if "Ns" in values else None,
         # With an emission map, the constant would add to it.
-        "emissive": None if "map_Ke" in maps else values.get("Ke"),
+        "emissive": None if "map_Ke" in maps else _shown(values["Ke"]) if "Ke" in values else None,
         "extras": extras or None,
         **physical_fields(values, maps, load, _scale_and_offset),
     }
@@ -206,6 +211,14 @@ def _material(
             setattr(material, field, value)
     _finish_alpha(material, maps, load)
     return material
+
+
+def _shown(color: tuple[float, float, float]) -> Any:
+    """Return display values, or linear light if a number is above 1: such numbers stay."""
+    if max(color) <= 1:
+        return color
+    light = linear_from_display(np.array(color)).tolist()
+    return LinearColor(map(max, light, (part if part > 1 else 0.0 for part in color)))
 
 
 def _opacity(values: dict[str, Any]) -> float:

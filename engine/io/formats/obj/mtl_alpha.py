@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....model.materials.colors import with_alpha
 from ....model.materials.material import Material
 from ....model.materials.textures import Texture
 
@@ -46,7 +47,7 @@ def set_alpha(
     elif opacity < 1:
         material.alpha_mode = "blend"
     if opacity < 1:
-        material.color = (*material.rgb, opacity)
+        material.color = with_alpha(material.rgb, opacity)
 
 
 def _map_values(texture: Texture, inverted: bool) -> np.ndarray:

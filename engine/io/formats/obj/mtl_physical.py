@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ....model.materials.linear_colors import linear
 from ....model.materials.material import PARAMETERS, TEXTURE_SLOTS
 from ....model.materials.parameters import TextureSlot
 from ....model.materials.textures import PlacedTexture, Texture
@@ -85,7 +86,7 @@ def _number_fields(values: dict[str, Any]) -> dict[str, Any]:
         "clearcoat_roughness": _fraction(values.get("Pcr", 0.0)),
     }
     if (sheen := _fraction(values.get("Ps", 0.0))) > 0:
-        fields |= {"sheen_color": (sheen, sheen, sheen), "sheen_roughness": 0.5}
+        fields |= {"sheen_color": linear(sheen, sheen, sheen), "sheen_roughness": 0.5}
     if (ior := values.get("Ni", 0.0)) >= 1:
         fields["ior"] = ior
     return fields

@@ -12,7 +12,7 @@ from typing import Any
 
 from ...._native.images import encode_png
 from ....base.files.atomic_write import AtomicFiles
-from ....model.materials.colors import linear_color
+from ....model.materials.colors import display_numbers
 from ....model.materials.material import Material, says_something, textures_of
 from ...writing.rows import float_words
 from ...writing.side_files import LIBRARY_MARK, SideFiles
@@ -77,17 +77,17 @@ class Library:
         )
 
     def _statements(self, material: Material, name: str) -> list[str]:
-        specular = linear_color(material.specular)
-        lines = [f"newmtl {name}", f"Kd {_numbers(linear_color(material.rgb))}"]
+        specular = display_numbers(material.specular)
+        lines = [f"newmtl {name}", f"Kd {_numbers(display_numbers(material.rgb))}"]
         lines += [f"Ks {_numbers(specular)}", f"Ns {_numbers([material.shininess])}"]
-        if linear_color(material.emissive).any():
-            lines.append(f"Ke {_numbers(linear_color(material.emissive))}")
+        if any(emissive := display_numbers(material.emissive)):
+            lines.append(f"Ke {_numbers(emissive)}")
         if material.alpha_mode == "blend" and material.alpha < 1:
             lines.append(f"d {_numbers([material.alpha])}")
         extras = {k: v for k, v in material.extras.items() if k not in _ALPHA}
         illum: Any = extras.get("illum")
-        if not _are_numbers([illum]) or (illum < 2 and specular.any()):
-            illum = 2.0 if specular.any() else 1.0
+        if not _are_numbers([illum]) or (illum < 2 and any(specular)):
+            illum = 2.0 if any(specular) else 1.0
         lines.append(f"illum {_numbers([illum])}")
         lines += self._extra_statements(extras, name)
         return lines + self._map_statements(material, name)

@@ -1,9 +1,9 @@
 """The colours of a PLY element, converted by each property's type and range.
 
-In: the table of an element. Out: sRGB bytes or linear floats, as a `Mesh` takes them. Integers are
-display values, floats linear light, but programs differ: floats may be display values of 0 to 255,
-16-bit integers may hold 8 bits, and an alpha has a type and a range of its own. 3D Gaussian splats
-have colours as the first coefficient of spherical harmonics.
+In: the table of an element. Out: sRGB bytes or linear floats, as a `Mesh` takes them. Numbers are
+display values; the floats of our own files are linear light. Programs differ: floats may range to
+255, 16-bit integers may hold 8 bits, and an alpha has a type and a range of its own. 3D Gaussian
+splats have colours as the first coefficient of spherical harmonics.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....model.materials.colors import srgb_to_linear_table
+from ....model.materials.colors import linear_from_display, srgb_to_linear_table
+from ....model.materials.linear_colors import marked
 from ...reading.warning_list import WarningList
 from .ply_tables import PlyTable
 
@@ -25,8 +26,8 @@ _ALPHAS = ("alpha", "a", "diffuse_alpha")
 _SPLATS, _OPACITY = ("f_dc_0", "f_dc_1", "f_dc_2"), "opacity"
 # The constant spherical harmonic, 1 / (2 sqrt(pi)).
 _HARMONIC = 0.28209479177387814
-# Floats from here on are display values, not light; our own writer's are always light.
-_LEAST_DISPLAY, _MOST_DISPLAY = 16.0, 256.0
+# Floats from here on range to 255; our own writer's never do.
+_LEAST_CODE, _MOST_CODE = 16.0, 256.0
 # Alphas beyond 1 by more than a rounding error.
 _LEAST_WHOLE = 1.01
 
@@ -51,14 +52,15 @@ def read_colors(table: PlyTable, warnings: WarningList, is_own: bool = False) ->
     ----------
     table : PlyTable
     warnings : WarningList
-        Gets a warning if floats are taken for display values.
+        Gets a warning if floats are taken for numbers of 0 to 255.
     is_own : bool
         Whether our own writer made the file; then floats are linear light.
 
     Returns
     -------
     colors : (N, 4) uint8 or float32, or None
-        sRGB bytes, or linear light if any of red, green and blue is linear. None without colours.
+        sRGB bytes, or linear light if any of red, green and blue is a float of 0 to 1. None without
+        colours.
     """
     names = next((names for names in _COLORS if table.has(*names)), None)
     if names is None:
@@ -73,28 +75,30 @@ def read_colors(table: PlyTable, warnings: WarningList, is_own: bool = False) ->
     values = [table.column(name) for name in both] if len(set(kinds)) > 1 else None
     if values is None:  # read at once
         block = table.columns(*both)
-        if kinds[0].startswith("f") and (is_own or _is_light(block)):
-            return _light(block)
+        if kinds[0].startswith("f") and (is_own or _is_of_0_to_1(block)):
+            return _light(block, is_own)
         values = list(block.T)
     columns = [_Column(*column) for column in zip(both, kinds, values, strict=True)]
     ranges = _Ranges(is_own, warnings)
     fulls = ranges.of_colors(columns[:3])
     clear = None if alpha is None else ranges.shares(columns[3])
-    return _joined(columns[:3], fulls, clear)
+    return _joined(columns[:3], fulls, clear, is_own)
 
 
-def _is_light(block: np.ndarray) -> bool:
+def _is_of_0_to_1(block: np.ndarray) -> bool:
     """Return whether floats certainly do not range to 255, as in most files."""
     largest = float(block.max(initial=0))
-    return largest < (_LEAST_WHOLE if block.shape[1] == 4 else _LEAST_DISPLAY)
+    return largest < (_LEAST_WHOLE if block.shape[1] == 4 else _LEAST_CODE)
 
 
-def _light(block: np.ndarray) -> np.ndarray:
-    """Return floats as linear light, white where invalid."""
+def _light(block: np.ndarray, is_linear: bool) -> np.ndarray:
+    """Return floats in linear light, white where invalid."""
     with np.errstate(over="ignore"):
         colors = np.ones((len(block), 4), np.float32)
         colors[:, : block.shape[1]] = np.nan_to_num(block, nan=1.0)
-    return np.clip(colors, 0, np.finfo(np.float32).max, out=colors)
+    if not is_linear:
+        colors[:, :3] = linear_from_display(colors[:, :3])
+    return marked(np.clip(colors, 0, np.finfo(np.float32).max, out=colors))
 
 
 class _Column(NamedTuple):
@@ -111,7 +115,7 @@ class _Ranges:
     Parameters
     ----------
     is_own : bool
-        Whether floats are always linear light.
+        Whether floats are linear light.
     warnings : WarningList
     """
 
@@ -119,7 +123,7 @@ class _Ranges:
         self._is_own, self._warnings = is_own, warnings
 
     def of_colors(self, columns: list[_Column]) -> list[float | None]:
-        """Return the value that means 255 in each column; None if it is linear light.
+        """Return the value that means 255 in each column; None for floats of 0 to 1.
 
         Columns of one type share a range.
         """
@@ -128,7 +132,7 @@ class _Ranges:
             alike = [column for column in columns if column.kind == kind]
             largest = max(_largest(column.values) for column in alike)
             names = ", ".join(column.name for column in alike)
-            found[kind] = self._full(names, kind, largest, _LEAST_DISPLAY)
+            found[kind] = self._full(names, kind, largest, _LEAST_CODE)
         return [found[column.kind] for column in columns]
 
     def shares(self, column: _Column) -> np.ndarray:
@@ -138,7 +142,7 @@ class _Ranges:
 
     def _full(self, names: str, kind: str, largest: float, least: float) -> float | None:
         if kind.startswith("f"):
-            if self._is_own or not least <= largest < _MOST_DISPLAY:
+            if self._is_own or not least <= largest < _MOST_CODE:
                 return None
             self._warn(f"{names}: floats up to {largest:g} are read as of 0 to 255")
             return 255.0
@@ -155,7 +159,7 @@ class _Ranges:
 
 
 def _joined(
-    columns: list[_Column], fulls: list[float | None], clear: np.ndarray | None
+    columns: list[_Column], fulls: list[float | None], clear: np.ndarray | None, is_linear: bool
 ) -> np.ndarray:
     """Return the colours of three columns, with alphas of 0 to 1."""
     count = len(columns[0].values)
@@ -171,12 +175,13 @@ def _joined(
     with np.errstate(over="ignore"):
         for channel, (column, full) in enumerate(zip(columns, fulls, strict=True)):
             if full is None:
-                colors[:, channel] = np.nan_to_num(column.values, nan=1.0)
+                values = np.nan_to_num(column.values, nan=1.0)
+                colors[:, channel] = values if is_linear else linear_from_display(values)
             else:
                 colors[:, channel] = srgb_to_linear_table()[_codes(column, full).astype(np.uint8)]
         if clear is not None:
             colors[:, 3] = clear
-    return np.clip(colors, 0, np.finfo(np.float32).max, out=colors)
+    return marked(np.clip(colors, 0, np.finfo(np.float32).max, out=colors))
 
 
 def _codes(column: _Column, full: float) -> np.ndarray:

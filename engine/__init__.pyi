@@ -95,6 +95,7 @@ from .rendering.framing import frame_scene as frame_scene
 from .rendering.options import RenderOptions as RenderOptions
 from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
-from .rendering.renderer import Renderer as Renderer
+from .stage.look import Look as Look
 from .stage.render import render as render
+from .stage.renderer import Renderer as Renderer
 from .version import __version__ as __version__

@@ -41,6 +41,9 @@ SETUPS = {
 }
 FIXED_SETUPS = ("sun",)
 OWN_LIGHTS = "scene"
+#: The set-up without lights: the renderer lights the scene from the camera.
+NO_LIGHTS = "plain"
+_UNTURNED = (OWN_LIGHTS, NO_LIGHTS)
 _IN_ENVIRONMENT = 0.6  # intensity factor of set-ups in an environment, which also lights
 
 
@@ -55,12 +58,18 @@ class Lighting:
         The world's up direction.
     intensity : float
         Factor on the set-ups' intensities. An environment dims them.
+    first : str
+        The first set-up of a scene without lights: a key of `SETUPS`, or `NO_LIGHTS`.
     """
 
-    def __init__(self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0) -> None:
+    def __init__(
+        self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0, first: str = "studio"
+    ) -> None:
         own = [node for node in staged.scene.nodes if is_light(node) and node.visible]
         self._staged = staged
-        self._nodes = {OWN_LIGHTS: own} if own else {}
+        self._nodes: dict[str, list[Node]] = {OWN_LIGHTS: own} if own else {}
+        if first == NO_LIGHTS:
+            self._nodes[NO_LIGHTS] = []
         self._home = np.stack(tuple(home_axes(up)), axis=1)
         if staged.environment is not None:
             intensity *= _IN_ENVIRONMENT
@@ -70,14 +79,14 @@ class Lighting:
                 for direction, color, strength in lights
             ]
         self.names = tuple(self._nodes)
-        self.choose(self.names[0])
+        self.choose(OWN_LIGHTS if own else first)
 
     def choose(self, name: str) -> None:
         """Light the scene with one set-up only."""
         self.name = name
         self._turn: np.ndarray | None = None
         self._staged.keep_lights(name == OWN_LIGHTS)
-        for setup in self._nodes.keys() - {OWN_LIGHTS}:
+        for setup in self._nodes.keys() - {OWN_LIGHTS, NO_LIGHTS}:
             for node in self._nodes[setup]:
                 node.visible = setup == name
 
@@ -87,7 +96,7 @@ class Lighting:
 
     def follow(self, pose: np.ndarray) -> None:
         """Rotate the set-up with the camera, whose pose is (4, 4)."""
-        if self.name == OWN_LIGHTS:
+        if self.name in _UNTURNED:
             return
         base = self._base(pose)
         turned = _pose_of(base if self._turn is None else _product(base, self._turn))
@@ -106,7 +115,7 @@ class Lighting:
         bool
             Whether it turned: the scene's own lights never do.
         """
-        if self.name == OWN_LIGHTS:
+        if self.name in _UNTURNED:
             return False
         base = self._base(pose)
         turned = _product(base.T, _product(_seen_turn(pose, dx, dy), base))

@@ -1,7 +1,7 @@
 """Opens a model file as a `ViewedScene`.
 
-In: a path, and a texture or colour for meshes without materials. Out: a scene with a neutral
-background, the format's usual up direction, and the file's counts and warnings.
+In: a path, and a texture or colour for meshes without materials. Out: a scene, the format's usual
+up direction, and the file's counts and warnings.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
-from .overlays.theme import DARK
 from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
@@ -141,8 +140,6 @@ def view_document(
 ) -> ViewedScene:
     """Return a document as a scene for viewing; see `open_model`."""
     scene = scene_from_document(document, variant)
-    if document.scene is None:
-        scene.background = DARK.background
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
@@ -150,7 +147,7 @@ def view_document(
         update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
         # glTF defines the visible sides per material; other files do not, or are often wrong.
-        appearance={} if document.tree is not None else {"cull": "auto"},
+        appearance={"cull": "back" if document.tree is not None else "auto"},
         path=path,
         format=document.format,
         details=document_lines(document),

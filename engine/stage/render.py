@@ -1,6 +1,7 @@
 """Renders one picture of anything drawable, in one call.
 
-In: a scene, a part of one, a mesh, or a trimesh object. Out: a `Frame`, from its own `Renderer`.
+In: a path, a scene, a part of one, a mesh, points, or a trimesh object. Out: a `Frame`, from its
+own `Renderer`.
 """
 
 from __future__ import annotations
@@ -10,15 +11,11 @@ from typing import TYPE_CHECKING, Any
 from ..base.calls import refuse_unknown
 from ..base.image_size import check_size
 from ..choices import Antialias, Backend, ColorSpace, Samples
-from ..errors import InvalidArgumentError
-from ..model.geometry.mesh import Mesh
-from ..model.scene.instances import InstancedMesh
-from ..model.scene.nodes import Node
-from ..model.scene.scene import Scene
+from ..model.materials.material import Material
 from ..rendering.frame import Frame
 from ..rendering.options import RenderKeywords
-from ..rendering.renderer import Renderer
-from .scenes_of_things import scene_of
+from .look import LookChoice
+from .renderer import Renderer
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -26,33 +23,39 @@ if TYPE_CHECKING:
     from ..rendering._view import CameraChoice
 
 #: The keywords of `render` for its renderer.
-_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
+_RENDERER_KEYWORDS = (
+    *("size", "look", "material", "backend", "threads"),
+    *("color_space", "samples", "antialias"),
+)
 
 
 def render(
-    scene: Scene | Node | Mesh | InstancedMesh | Any,
+    scene: Any,
     camera: CameraChoice = None,
     *,
     size: tuple[int, int] = (1280, 720),
+    look: LookChoice = "studio",
+    material: Material | None = None,
     backend: Backend = "auto",
     threads: int = 0,
     color_space: ColorSpace = "srgb",
-    samples: Samples = 1,
-    antialias: Antialias = "ssaa",
+    samples: Samples = 4,
+    antialias: Antialias = "msaa",
     **options: Unpack[RenderKeywords],
 ) -> Frame:
-    """Draw one frame of a scene, a node or a mesh.
+    """Draw one frame of a file, a scene, a node, a mesh or points.
 
     Parameters
     ----------
-    scene : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
-        Anything but a scene is drawn on black. A node is drawn with its subtree at its world pose,
-        lit by the lights of that subtree.
+    scene : path-like, Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+        A file gives the picture of ``engine3d render``, with the same bytes. A node is drawn with
+        its subtree at its world pose, lit by the lights of that subtree.
     camera : None, Node or (Camera, pose)
+        By default a scene's first camera, else one that shows everything.
     size : (int, int)
         Width and height in pixels.
-    backend, threads, color_space, samples, antialias
-        As for `Renderer`.
+    look, material, backend, threads, color_space, samples, antialias
+        As for `Renderer`. Scenes with light of their own wear no look.
     **options
         As for `Renderer.render`: ``mode``, ``wireframe``, ``outputs`` and so on.
 
@@ -62,22 +65,24 @@ def render(
 
     Raises
     ------
-    InvalidArgumentError, BackendError, OutOfMemoryError
+    InvalidArgumentError, BackendError, OutOfMemoryError, FileFormatError, FileAccessError
+
+    Examples
+    --------
+    >>> e3d.render("model.glb").save("model.png")
+    >>> e3d.render(e3d.torus(), look="plain", material=e3d.Material(color=(200, 40, 40)))
     """
     refuse_unknown("render", options, (*RenderKeywords.__annotations__, *_RENDERER_KEYWORDS))
     width, height = check_size(size)
-    drawn = scene_of(scene)
-    if drawn is None:
-        raise InvalidArgumentError(
-            f"a scene, a node or a mesh can be drawn, not {type(scene).__name__}"
-        )
     with Renderer(
         width,
         height,
+        look=look,
+        material=material,
         backend=backend,
         threads=threads,
         color_space=color_space,
         samples=samples,
         antialias=antialias,
     ) as renderer:
-        return renderer.render(drawn, camera, **options)
+        return renderer.render(scene, camera, **options)

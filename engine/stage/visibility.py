@@ -19,6 +19,7 @@ from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
 from ..rendering.frame import Frame
+from .painting import painted
 
 DRAWABLE = (Mesh, InstancedMesh)
 Drawable: TypeAlias = Mesh | InstancedMesh
@@ -36,21 +37,26 @@ class Entry(NamedTuple):
 
 
 class Visibility:
-    """Hides parts of a scene in its staged scene.
+    """Hides parts of a scene in its staged scene, and paints the others.
 
     Parameters
     ----------
     staged : StagedScene
+    paint : Material, optional
+        The scene is drawn in this material instead of its own.
     """
 
-    def __init__(self, staged: StagedScene) -> None:
+    def __init__(self, staged: StagedScene, paint: Material | None = None) -> None:
         self._staged = staged
+        self._paint = paint
         nodes = staged.scene.nodes
         self._nodes = [node for node in nodes if isinstance(node.object, DRAWABLE)]
         used = [material for mesh in self._meshes() for material in mesh.materials]
         self._materials = list(dict.fromkeys(map(_key, used)))
         self._hidden_nodes: set[Node] = set()
         self._hidden_materials: set[MaterialKey] = set()
+        if paint is not None:
+            self._apply()
 
     def _meshes(self) -> Iterator[Mesh]:
         return (mesh_of(thing) for thing in self._things())
@@ -105,8 +111,13 @@ class Visibility:
             frame.triangle_id[y, x] = np.flatnonzero(kept)[face]
 
     def _apply(self) -> None:
-        part_of = self._visible_part if self._hidden_materials else None
-        self._staged.hide(self._hidden_nodes, part_of)
+        changes = self._hidden_materials or self._paint is not None
+        self._staged.hide(self._hidden_nodes, self._drawn_part if changes else None)
+
+    def _drawn_part(self, thing: Drawable) -> Drawable:
+        """Return what is drawn of a mesh, or of instances of one."""
+        part = self._visible_part(thing) if self._hidden_materials else thing
+        return part if self._paint is None else painted(part, self._paint)
 
     def _kept(self, mesh: Mesh) -> np.ndarray:
         """Return which faces of a mesh have visible materials."""

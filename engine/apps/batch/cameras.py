@@ -156,7 +156,7 @@ def _framed(
     return frame_scene(
         scene,
         aspect=size[0] / size[1],
-        yfov=math.radians(said.get("view_angle", _VIEW_ANGLE)),
+        yfov=math.radians(said["view_angle"]) if "view_angle" in said else None,
         margin=said.get("margin", 1.05),
         **way,
     )

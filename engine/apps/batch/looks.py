@@ -16,9 +16,9 @@ from ...errors import Engine3DWarning
 from ...rendering.frame import Frame
 from ...stage.blank import Reason
 from ...stage.open_models import open_models
-from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
-from ...stage.views.first_view import DEFAULT_YFOV, FirstView
+from ...stage.viewed_thing import settings_for
+from ...stage.views.first_view import FirstView
 from .task import Task
 
 
@@ -44,7 +44,7 @@ def draw_look(
         warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
     with ViewRenderer(
         viewed,
-        Settings(appearance={}, look=task.look),
+        settings_for(task.model, task.look),
         task.size,
         backend=backend,
         threads=threads,
@@ -59,7 +59,7 @@ def draw_look(
 def _view(said: dict[str, Any]) -> FirstView:
     angle = said.get("view_angle")
     return FirstView(
-        yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
+        yfov=None if angle is None else math.radians(angle),
         azimuth=math.radians(said.get("azimuth", 0.0)),
         elevation=math.radians(said.get("elevation", 0.0)),
     )

@@ -22,10 +22,11 @@ from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...rendering.canvas import Canvas
 from ...rendering.frame import Frame
+from ...stage.look import LookChoice
 from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
 from ...stage.viewed_scene import TURN_SECONDS, ViewedScene
-from ...stage.viewed_thing import viewed_thing
+from ...stage.viewed_thing import settings_for, viewed_thing
 from ...stage.views.first_view import view_of_scene
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
@@ -42,7 +43,8 @@ def show(
     *,
     size: tuple[int, int] | None = None,
     title: str | None = None,
-    up: str = "+Y",
+    look: LookChoice = "studio",
+    up: str | None = None,
     update: Callable[[float], None] | None = None,
     period: float = TURN_SECONDS,
     format: PixelFormat | None = None,
@@ -56,15 +58,17 @@ def show(
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
-        A node is shown with its subtree and the lights in it. The first view of a scene is its
+    thing : path, Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
+        A file of a model is opened as by ``engine3d run``. A node is shown with its subtree and the lights in it. The first view of a scene is its
         camera's, if it has one. Arrays are as for `Window.present`.
     size : (int, int), optional
         Width and height of the window in pixels; by default 1280x720, or fitted to the picture.
     title : str, optional
         Text of the title bar.
-    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
-        The up direction of a scene.
+    look : {"studio", "plain"} or Look
+        As for `Renderer`; pictures have none.
+    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}, optional
+        The up direction of a scene; by default +Y, or that of the file.
     update : callable, optional
         Called with the time in seconds before each picture of a scene, to move its nodes:
         ``animator.seek``, or your own function. It plays from the start; Space pauses it. By
@@ -87,7 +91,7 @@ def show(
     >>> e3d.show(e3d.render(scene, mode="depth"))
     """
     try:
-        _show(thing, size, title, up, update, period, format)
+        _show(thing, size, title, look, up, update, period, format)
     except DisplayError as error:
         if not _in_a_kernel():
             raise
@@ -103,9 +107,12 @@ def _in_a_kernel() -> bool:
     return shell is not None and hasattr(shell.get_ipython(), "kernel")
 
 
-def _show(thing, size, title, up, update, period, format) -> None:
+def _show(thing, size, title, look, up, update, period, format) -> None:
     size = None if size is None else check_size(size)
-    viewed = viewed_thing(thing, title=title, up=up, update=update, period=period)
+    settings = settings_for(thing, look)
+    viewed = None
+    if not isinstance(thing, np.ndarray):
+        viewed = viewed_thing(thing, title=title, up=up, update=update, period=period)
     if viewed is None:
         if not isinstance(thing, (Frame, Canvas, np.ndarray, Sequence)):
             raise InvalidArgumentError(
@@ -113,14 +120,14 @@ def _show(thing, size, title, up, update, period, format) -> None:
             )
         _show_picture(thing, size, title, format)
         return
-    _show_scene(viewed, size)
+    _show_scene(viewed, settings, size)
 
 
-def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
+def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] | None) -> None:
     size = size or SIZE
     with (
         Window(*size, f"{viewed.title} - engine3d") as window,
-        ViewRenderer(viewed, Settings({}), size) as view_renderer,
+        ViewRenderer(viewed, settings, size) as view_renderer,
     ):
         view = view_of_scene(view_renderer)
         try:

@@ -40,6 +40,7 @@ from .io.resources import Resource as Resource
 from .io.resources import Resources as Resources
 from .io.resources import ResourceStats as ResourceStats
 from .io.scenes.scene_loading import load_scene as load_scene
+from .io.scenes.upright_loading import load as load
 from .io.writers import save_mesh as save_mesh
 from .io.writing.scene_saving import save_scene as save_scene
 from .model.environments.environment import Environment as Environment
@@ -90,11 +91,11 @@ from .model.spatial.rays import RayHits as RayHits
 from .rendering.backend_selection import backends as backends
 from .rendering.canvas import Canvas as Canvas
 from .rendering.frame import Frame as Frame
-from .rendering.framing import frame_bounds as frame_bounds
-from .rendering.framing import frame_scene as frame_scene
 from .rendering.options import RenderOptions as RenderOptions
 from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
+from .stage.framing import frame_bounds as frame_bounds
+from .stage.framing import frame_scene as frame_scene
 from .stage.look import Look as Look
 from .stage.render import render as render
 from .stage.renderer import Renderer as Renderer

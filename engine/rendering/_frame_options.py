@@ -35,9 +35,9 @@ from .options import (
     WHITE,
     OptionKeywords,
     RenderKeywords,
-    checked_options,
     RenderOptions,
     check_outputs,
+    checked_options,
     core_numbers,
     shows_light,
 )

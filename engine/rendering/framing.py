@@ -24,8 +24,8 @@ from .support_functions import SupportFunction, support_of_box, support_of_scene
 
 #: The default field of view of the longer side of a picture, in radians.
 LENS = math.radians(38.0)
-_DIRECTION = (-0.35, -0.25, -1.0)
-_UP = (0.0, 1.0, 0.0)
+DIRECTION = (-0.35, -0.25, -1.0)
+UP = (0.0, 1.0, 0.0)
 # The planes keep this fraction of their distance as a margin, so that rounding cuts nothing off.
 _SLACK = 1e-4
 _SECANTS = 2
@@ -38,8 +38,8 @@ def frame_bounds(
     *,
     aspect: float = 1.0,
     yfov: float | None = None,
-    direction: ArrayLike = _DIRECTION,
-    up: ArrayLike = _UP,
+    direction: ArrayLike = DIRECTION,
+    up: ArrayLike = UP,
     margin: float = 1.05,
 ) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     """Return a camera and its pose that show a whole box, as large as possible.
@@ -78,8 +78,8 @@ def frame_scene(
     *,
     aspect: float = 1.0,
     yfov: float | None = None,
-    direction: ArrayLike = _DIRECTION,
-    up: ArrayLike = _UP,
+    direction: ArrayLike = DIRECTION,
+    up: ArrayLike = UP,
     margin: float = 1.05,
 ) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     """Return a camera and its pose that show a whole scene, as large as possible.

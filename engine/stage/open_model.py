@@ -98,7 +98,7 @@ def read_model(
     texture : path-like, optional
         The base colour texture of the meshes without materials.
     color : (3,) sequence, optional
-        The base colour of the meshes without materials. If there are none, a warning says so.
+        The base colour of the meshes without materials.
     variant : str or int, optional
         As in `engine3d.load_scene`.
     scalars : ScalarColoring, optional
@@ -166,9 +166,9 @@ def has_materials(mesh: Mesh) -> bool:
 
 
 def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -> None:
-    """Give the meshes' materials the image and the colour; warn if that changes nothing."""
-    if not meshes:
-        _warn("the model has materials of its own: it gets no other texture or colour")
+    """Give the meshes' materials the image and the colour; warn of an image that does not show."""
+    if image is not None and not meshes:
+        _warn("the model has materials of its own: it gets no other texture")
     elif image is not None and all(mesh.uvs is None for mesh in meshes):
         _warn("the model has no texture coordinates: the texture does not show")
     for material in (material for mesh in meshes for material in mesh.materials):

@@ -26,8 +26,8 @@ def scene_of(thing: Any) -> Scene | None:
     Parameters
     ----------
     thing : Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
-        A scene is returned unchanged. An array holds points. For a node, the new scene holds its visible subtree at its
-        world poses, in its current deformation.
+        A scene is returned unchanged. An array holds points. For a node, the new scene holds its
+        visible subtree at its world poses, in its current deformation.
     """
     if isinstance(thing, Scene):
         return thing
@@ -52,8 +52,8 @@ def scene_of(thing: Any) -> Scene | None:
 def is_lit(scene: Scene) -> bool:
     """Return whether a scene has light of its own, so that it wears no look.
 
-    That is a light, visible or not, an environment, or another ambient light than that of new scenes and of
-    models in files.
+    That is a light, visible or not, an environment, or another ambient light than that of new
+    scenes and of models in files.
     """
     if scene.environment is not None or tuple(scene.ambient) not in _USUAL_AMBIENT:
         return True

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..base import linalg
 from ..choices import Antialias, Backend, Samples
-from ..model.scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
+from ..model.scene.cameras import Camera, PerspectiveCamera
 from ..model.spatial.rays import RayHit
 from ..rendering.canvas import Canvas
 from ..rendering.frame import Frame, Output
@@ -41,8 +41,8 @@ from .scene_bounds import turning_outline
 from .stage_settings import Settings
 from .staging import Staging
 from .viewed_scene import ViewedScene
-from .views.free_region import NOTHING, Taken
 from .views.camera_view import AnyView, CameraView
+from .views.free_region import NOTHING, Taken
 from .views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
 

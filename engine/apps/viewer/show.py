@@ -59,8 +59,9 @@ def show(
     Parameters
     ----------
     thing : path, Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
-        A file of a model is opened as by ``engine3d run``. A node is shown with its subtree and the lights in it. The first view of a scene is its
-        camera's, if it has one. Arrays are as for `Window.present`.
+        A file of a model is opened as by ``engine3d run``. A node is shown with its subtree and the
+        lights in it. The first view of a scene is its camera's, if it has one. Arrays are as for
+        `Window.present`.
     size : (int, int), optional
         Width and height of the window in pixels; by default 1280x720, or fitted to the picture.
     title : str, optional

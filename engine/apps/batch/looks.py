@@ -15,6 +15,7 @@ from ...choices import Backend
 from ...errors import Engine3DWarning
 from ...rendering.frame import Frame
 from ...stage.blank import Reason
+from ...stage.look import LookChoice
 from ...stage.open_models import open_models
 from ...stage.view_renderer import ViewRenderer
 from ...stage.viewed_thing import settings_for
@@ -23,13 +24,14 @@ from .task import Task
 
 
 def draw_look(
-    task: Task, threads: int, backend: Backend, companion: Callable[[str], bool]
+    task: Task, look: LookChoice, threads: int, backend: Backend, companion: Callable[[str], bool]
 ) -> tuple[Frame, Reason | None]:
-    """Draw a task's model in its look; also return why it is blank, or None.
+    """Draw a task's model in a look; also return why it is blank, or None.
 
     Parameters
     ----------
     task : Task
+    look : str
     threads, backend
         As of `Renderer`.
     companion : callable
@@ -44,7 +46,7 @@ def draw_look(
         warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
     with ViewRenderer(
         viewed,
-        settings_for(task.model, task.look),
+        settings_for(task.path(task.model), look),
         task.size,
         backend=backend,
         threads=threads,

@@ -1,7 +1,7 @@
 """Light set-ups beside a scene.
 
-In: a scene and, each frame, the camera's pose. Out: light nodes beside it; one set-up is visible at
-a time. All set-ups except "sun" move with the camera, so that the subject is never dark; the
+In: a scene and, each frame, the camera's pose. Out: light nodes beside it, of one set-up
+at a time. All set-ups except "sun" move with the camera, so that the subject is never dark; the
 scene's own lights, if any, are the first set-up.
 """
 
@@ -65,20 +65,25 @@ class Lighting:
     def __init__(
         self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0, first: str = "studio"
     ) -> None:
-        own = [node for node in staged.scene.nodes if is_light(node) and node.visible]
+        own = [
+            cast(Light, node.object)
+            for node in staged.scene.nodes
+            if is_light(node) and node.visible
+        ]
         self._staged = staged
-        self._nodes: dict[str, list[Node]] = {OWN_LIGHTS: own} if own else {}
+        self._lights: dict[str, list[Light]] = {OWN_LIGHTS: own} if own else {}
+        self._nodes: list[Node] = []  # of the chosen set-up, beside the scene
         if first == NO_LIGHTS:
-            self._nodes[NO_LIGHTS] = []
+            self._lights[NO_LIGHTS] = []
         self._home = np.stack(tuple(home_axes(up)), axis=1)
         if staged.environment is not None:
             intensity *= _IN_ENVIRONMENT
         for name, lights in SETUPS.items():
-            self._nodes[name] = [
-                staged.beside.add(DirectionalLight(direction, color, strength * intensity, "white"))
+            self._lights[name] = [
+                DirectionalLight(direction, color, strength * intensity, "white")
                 for direction, color, strength in lights
             ]
-        self.names = tuple(self._nodes)
+        self.names = tuple(self._lights)
         self.choose(OWN_LIGHTS if own else first)
 
     def choose(self, name: str) -> None:
@@ -86,13 +91,14 @@ class Lighting:
         self.name = name
         self._turn: np.ndarray | None = None
         self._staged.keep_lights(name == OWN_LIGHTS)
-        for setup in self._nodes.keys() - {OWN_LIGHTS, NO_LIGHTS}:
-            for node in self._nodes[setup]:
-                node.visible = setup == name
+        for node in self._nodes:
+            self._staged.beside.remove(node)
+        added = [] if name == OWN_LIGHTS else self._lights[name]
+        self._nodes = [self._staged.beside.add(light) for light in added]
 
     def groups(self) -> list[list[Light]]:
         """Return the groups of lights that shine together, one for each set-up."""
-        return [[cast(Light, node.object) for node in nodes] for nodes in self._nodes.values()]
+        return list(self._lights.values())
 
     def follow(self, pose: np.ndarray) -> None:
         """Rotate the set-up with the camera, whose pose is (4, 4)."""
@@ -100,7 +106,7 @@ class Lighting:
             return
         base = self._base(pose)
         turned = _pose_of(base if self._turn is None else _product(base, self._turn))
-        for node in self._nodes[self.name]:
+        for node in self._nodes:
             node.pose = turned
 
     def _base(self, pose: np.ndarray) -> np.ndarray:

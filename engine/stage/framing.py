@@ -79,7 +79,7 @@ def frame_scene(
     """Return a camera and its pose that show a whole scene, as large as possible.
 
     It fits the vertices of visible objects, so round models fill the picture better than their
-    bounding boxes would. Scenes without a camera are drawn with this one.
+    bounding boxes would. Scenes with light of their own and no camera are drawn with this one.
 
     Parameters
     ----------

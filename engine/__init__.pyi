@@ -94,9 +94,9 @@ from .rendering.frame import Frame as Frame
 from .rendering.options import RenderOptions as RenderOptions
 from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
-from .stage.framing import frame_bounds as frame_bounds
-from .stage.framing import frame_scene as frame_scene
 from .stage.look import Look as Look
 from .stage.render import render as render
 from .stage.renderer import Renderer as Renderer
+from .stage.views.framing import frame_bounds as frame_bounds
+from .stage.views.framing import frame_scene as frame_scene
 from .version import __version__ as __version__

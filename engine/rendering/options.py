@@ -35,7 +35,7 @@ from ..model.materials.colors import check_color
 from .frame import OUTPUTS, Output
 
 if TYPE_CHECKING:
-    from ._view import CameraChoice
+    from .camera_choice import CameraChoice
     from .frame import Frame
 
 #: Checks the value of a named option, and returns the value to keep.

@@ -20,7 +20,7 @@ from .renderer import Renderer
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ..rendering._view import CameraChoice
+    from ..rendering.camera_choice import CameraChoice
 
 #: The keywords of `render` for its renderer.
 _RENDERER_KEYWORDS = (

@@ -16,7 +16,7 @@ from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
 from ..rendering import renderer as rendering
-from ..rendering._view import find_camera
+from ..rendering.camera_choice import find_camera
 from ..rendering.frame import Frame
 from ..rendering.options import (
     DEFAULTS,
@@ -35,7 +35,7 @@ from .views.camera_view import AnyView, CameraView
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ..rendering._view import CameraChoice
+    from ..rendering.camera_choice import CameraChoice
 
 _PLAIN = Look.plain()
 

@@ -158,9 +158,7 @@ def test_a_texture_is_asked_for_or_found_beside_the_model(model, tmp_path):
     assert draw() == [10, 30, 200]
 
 
-def test_a_texture_may_be_refused_and_a_colour_replaces_all(
-    model, tmp_path, capsys
-):
+def test_a_texture_may_be_refused_and_a_colour_replaces_all(model, tmp_path, capsys):
     (tmp_path / "square.mtl").write_text("newmtl blue\nKd 0 0 1\n")
     model.write_text("mtllib square.mtl\nusemtl blue\n" + OBJ)
     Image.new("RGB", (4, 4), (200, 30, 10)).save(tmp_path / "red.png")

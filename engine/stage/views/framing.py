@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import InvalidArgumentError
-from ..model.scene.cameras import PerspectiveCamera
-from ..model.scene.orbiting import home_axes
-from ..model.scene.scene import Scene
-from ..rendering import framing
-from .viewed_scene import ViewedScene
-from .viewed_thing import viewed_of
-from .views.viewpoint import UP_DIRECTIONS
+from ...errors import InvalidArgumentError
+from ...model.scene.cameras import PerspectiveCamera
+from ...model.scene.orbiting import home_axes
+from ...model.scene.scene import Scene
+from ...rendering import framing
+from ..viewed_scene import ViewedScene
+from ..viewed_thing import viewed_of
+from .viewpoint import UP_DIRECTIONS
 
 
 def frame_bounds(

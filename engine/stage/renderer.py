@@ -18,6 +18,7 @@ from ..model.scene.staged_scene import StagedScene
 from ..rendering import renderer as rendering
 from ..rendering.camera_choice import find_camera
 from ..rendering.frame import Frame
+from ..rendering.framing import frame_scene
 from ..rendering.options import (
     DEFAULTS,
     OptionKeywords,
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from ..rendering.camera_choice import CameraChoice
 
 _PLAIN = Look.plain()
+_BARE = {name: getattr(DEFAULTS, name) for name in ("point_size", "line_color")}
 
 
 class Renderer(rendering.Renderer):
@@ -163,7 +165,7 @@ class Renderer(rendering.Renderer):
             super().prepare(scene, options=options, **keywords)
             return
         chosen, given = _chosen(options, keywords)
-        stage = self._stages.stage_of(scene, given)
+        stage = self._stages.stage_of(scene, self._usual(scene) | given)
         super().prepare(stage.view_renderer.staging.scene, options=chosen)
 
     @shows_options
@@ -223,12 +225,12 @@ class Renderer(rendering.Renderer):
                 **keywords,
             )
         chosen, given = _chosen(options, keywords)
-        stage = self._stages.stage_of(scene, given)
+        stage = self._stages.stage_of(scene, self._usual(scene) | given)
         viewed = stage.view_renderer.viewed
         if culling_camera is not None:
             culling_camera = find_camera(viewed.scene, culling_camera)
         return stage.view_renderer.draw(
-            self._view(stage, camera, camera is None and is_file(scene)),
+            self._view(stage, scene, camera),
             outputs=chosen.outputs,
             out=out,
             culling_camera=culling_camera,
@@ -251,11 +253,21 @@ class Renderer(rendering.Renderer):
             self._of_thread.kept = kept
         return kept
 
-    def _view(self, stage: Stage, camera: CameraChoice, is_first: bool) -> AnyView:
+    def _is_bare(self, thing: Any) -> bool:
+        """Return whether a thing is drawn as a scene would be that holds it."""
+        return self._worn == _PLAIN and not is_file(thing)
+
+    def _usual(self, thing: Any) -> dict[str, Any]:
+        """Return the options of a thing where a stage has others than `RenderOptions`."""
+        return _BARE if self._is_bare(thing) else {}
+
+    def _view(self, stage: Stage, thing: Any, camera: CameraChoice) -> AnyView:
         """Return the view of a stage: that of a camera, else the thing's first one."""
         view_renderer = stage.view_renderer
         scene = view_renderer.viewed.scene
-        found = None if is_first else find_camera(scene, camera)
+        found = None if camera is None and is_file(thing) else find_camera(scene, camera)
+        if found is None and self._is_bare(thing):
+            found = frame_scene(scene, aspect=self.width / self.height)
         if found is None:
             return stage.first
         view_renderer.choose_theme(stage.first)

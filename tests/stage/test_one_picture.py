@@ -190,6 +190,7 @@ def test_the_plain_look_with_one_sample_is_the_renderers_own_picture():
         exact = renderer.render(scene, camera, cull="back").color.copy()
     options = {"size": SIZE, "look": "plain", "samples": 1, "cull": "back"}
     same(exact, e3d.render(mesh, camera, **options).color)
+    same(exact, e3d.render(mesh, **options).color)
     same(exact, e3d.render(scene, camera, **options).color)
 
 

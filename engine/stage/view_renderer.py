@@ -43,7 +43,7 @@ from .staging import Staging
 from .viewed_scene import ViewedScene
 from .views.camera_view import AnyView, CameraView
 from .views.free_region import NOTHING, Taken
-from .views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
+from .views.viewpoint import UP_DIRECTIONS, WALKING_YFOV, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
 
 if TYPE_CHECKING:
@@ -231,8 +231,13 @@ class ViewRenderer:
         return self.size[0] / self.size[1]
 
     def view(self, yfov: float | None = None) -> Viewpoint:
-        """Return the first view of the scene, with a vertical field of view in radians."""
-        yfov = lens_for(self.aspect) if yfov is None else yfov
+        """Return the first view of the scene, with a vertical field of view in radians.
+
+        By default the longer side has 38 degrees; scenes to walk in have a wider view.
+        """
+        if yfov is None:
+            walks = self.viewed.walker is not None
+            yfov = WALKING_YFOV if walks else lens_for(self.aspect)
         viewed, up = self.viewed, UP_DIRECTIONS[self.staging.up]
         view = Viewpoint(np.zeros(3), 1.0, viewed.azimuth, viewed.elevation, up, yfov)
         self.frame(view)

@@ -23,7 +23,7 @@ def view_renderer():
 
 
 def view_from(view_renderer, elevation, distance):
-    view = view_renderer.view(math.radians(35))
+    view = view_renderer.view()
     view.elevation = math.radians(elevation)
     view.distance *= distance
     return view

@@ -33,6 +33,8 @@ UP_DIRECTIONS = {
     "+Z": (0.0, 0.0, 1.0),
     "-Z": (0.0, 0.0, -1.0),
 }
+#: The vertical field of view in scenes to walk in.
+WALKING_YFOV = math.radians(35.0)
 #: Three-quarter view from the right and slightly above: shows three sides of most models.
 DEFAULT_AZIMUTH = math.radians(30.0)
 DEFAULT_ELEVATION = math.radians(18.0)

@@ -11,6 +11,8 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ..base.files.stamps import FileState
 from ..errors import InvalidArgumentError
 from ..io.reading.linked_files import found_files
@@ -99,6 +101,7 @@ class KeptStages:
         """Drop all stages."""
         self._kept.clear()
 
+    @np.errstate(all="ignore")
     def _staged(self, thing: Any, options: Mapping[str, Any]) -> Stage:
         files: dict[str, FileState] = {}
         if isinstance(thing, str):

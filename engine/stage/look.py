@@ -30,8 +30,9 @@ _TONE_MAPPINGS = get_args(ToneMapping)
 class Look:
     """How models are lit, and what they stand before.
 
-    `Look.studio` and `Look.plain` make looks; `replace` returns another one with other values.
-    Looks are immutable, and can be compared, hashed, copied and pickled.
+    `Look.studio`, whose values are the defaults, and `Look.plain` make looks; `replace` returns
+    another one with other values. Looks are immutable, and can be compared, hashed, copied and
+    pickled.
 
     Attributes
     ----------
@@ -52,13 +53,13 @@ class Look:
         As in `RenderOptions`.
     """
 
-    lights: LightSetup | None
-    light_intensity: float
-    background: Backdrop | ColorLike | Gradient | Environment | None
-    ground: bool
-    environment: bool
-    tone_mapping: ToneMapping
-    ambient_occlusion: bool
+    lights: LightSetup | None = "studio"
+    light_intensity: float = 1.0
+    background: Backdrop | ColorLike | Gradient | Environment | None = "auto"
+    ground: bool = True
+    environment: bool = True
+    tone_mapping: ToneMapping = "neutral"
+    ambient_occlusion: bool = True
 
     def __post_init__(self) -> None:
         if self.lights is not None:
@@ -132,7 +133,7 @@ def check_look(value: LookChoice) -> Look:
     """
     if isinstance(value, Look):
         return value
-    if value not in LOOKS:
+    if not isinstance(value, str) or value not in LOOKS:
         names = ", ".join(f'"{name}"' for name in LOOKS)
         raise InvalidArgumentError(f"look must be {names} or a Look, not {shown(value)}")
     return {"studio": _STUDIO, "plain": _PLAIN}[value]
@@ -147,18 +148,9 @@ def _background(value: Any) -> Any:
     return check_color(value, "background")
 
 
-_STUDIO = Look(
-    lights="studio",
-    light_intensity=1.0,
-    background="auto",
-    ground=True,
-    environment=True,
-    tone_mapping="neutral",
-    ambient_occlusion=True,
-)
+_STUDIO = Look()
 _PLAIN = Look(
     lights=None,
-    light_intensity=1.0,
     background="scene",
     ground=False,
     environment=False,

@@ -11,6 +11,8 @@ import threading
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
@@ -229,12 +231,10 @@ class Renderer(rendering.Renderer):
         viewed = stage.view_renderer.viewed
         if culling_camera is not None:
             culling_camera = find_camera(viewed.scene, culling_camera)
-        return stage.view_renderer.draw(
-            self._view(stage, scene, camera),
-            outputs=chosen.outputs,
-            out=out,
-            culling_camera=culling_camera,
-        )
+        with np.errstate(all="ignore"):
+            view = self._view(stage, scene, camera)
+            passed = {"out": out, "culling_camera": culling_camera}
+            return stage.view_renderer.draw(view, outputs=chosen.outputs, **passed)
 
     def _is_drawn_as_it_is(self, thing: Any) -> bool:
         """Return whether nothing is added to a thing, nor changed in it."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -93,7 +94,7 @@ class Staging:
         elif self.viewed.themed and (settings.keeps_theme or background in THEMED):
             self.scene.background = self._theme_background
         elif self.viewed.themed and background != "scene":
-            self.scene.background = background
+            self.scene.background = cast(Background, background)
 
     @property
     def _theme_background(self) -> Background:

@@ -79,6 +79,7 @@ COPIED = {
     "RayHits": lambda: drawn().raycast_many((0, 0, 5), (0, 0, -1)),
     "RasterizeResult": lambda: e3d.rasterize(np.zeros((3, 4), np.float32), [[0, 1, 2]], 4, 4),
     "RenderOptions": lambda: e3d.RenderOptions(line_color=(1, 2, 3)),
+    "Look": e3d.Look.studio,
     "Impostor": lambda: e3d.Impostor(painted(), views=2, texels=8),
     "DetailedInstances": lambda: e3d.DetailedInstances([(painted(), 0.0)], [(0, 0, 0, 1)]),
     "DetailedMeshes": lambda: e3d.DetailedMeshes([((painted(),), 0.0)]),

@@ -11,7 +11,7 @@ from ...model.scene.nodes import Node
 from ...model.scene.staged_scene import StagedScene
 from ...rendering.frame import Frame
 from ..viewed_scene import ViewedScene
-from ..views.viewpoint import Viewpoint
+from ..views.camera_view import AnyView
 from .axes_grid import AxesGrid
 from .theme import Theme
 
@@ -45,7 +45,7 @@ class BoxGrid:
         """Whether the grid is drawn."""
         return self._node is not None and self._node.visible
 
-    def follow(self, view: Viewpoint, shown: bool) -> None:
+    def follow(self, view: AnyView, shown: bool) -> None:
         """Update the grid for a view, or hide it."""
         if shown and not np.isfinite([self._grid.low, self._grid.high]).all():
             return

@@ -52,6 +52,10 @@ class CameraView:
         """Return the camera's pose, ``world_from_view``, (4, 4) float64."""
         return self._pose.copy()
 
+    def rotation(self) -> NDArray[np.float64]:
+        """Return the camera's axes in world space: (3, 3), columns right, up and back."""
+        return self._pose[:3, :3].copy()
+
     def position(self) -> NDArray[np.float64]:
         """Return the camera's position, (3,), in world space."""
         return self._pose[:3, 3].copy()

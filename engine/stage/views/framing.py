@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...base import linalg
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.orbiting import home_axes
@@ -114,14 +115,9 @@ def _directions(
 ) -> tuple[ArrayLike, ArrayLike]:
     """Return a view direction and an up direction; the defaults are relative to a file's axes."""
     if viewed is None or viewed.up == "+Y":
-        usual, upward = framing.DIRECTION, framing.UP
+        usual: ArrayLike = framing.DIRECTION
+        upward: ArrayLike = framing.UP
     else:
         upward = UP_DIRECTIONS[viewed.up]
-        axes = home_axes(upward)
-        usual = tuple(
-            float(
-                sum(part * axis[place] for part, axis in zip(framing.DIRECTION, axes, strict=True))
-            )
-            for place in range(3)
-        )
+        usual = linalg.dot(home_axes(upward).T, framing.DIRECTION)
     return usual if direction is None else direction, upward if up is None else up

@@ -233,8 +233,9 @@ class Renderer(rendering.Renderer):
             culling_camera = find_camera(viewed.scene, culling_camera)
         with np.errstate(all="ignore"):
             view = self._view(stage, scene, camera)
-            passed = {"out": out, "culling_camera": culling_camera}
-            return stage.view_renderer.draw(view, outputs=chosen.outputs, **passed)
+            return stage.view_renderer.draw(
+                view, outputs=chosen.outputs, out=out, culling_camera=culling_camera
+            )
 
     def _is_drawn_as_it_is(self, thing: Any) -> bool:
         """Return whether nothing is added to a thing, nor changed in it."""

@@ -27,12 +27,17 @@ def measure(arguments):
     """Yield a row for each number of lights."""
     world = e3d.worlds.city(arguments.triangles)
     width, height = arguments.size
-    with e3d.Renderer(width, height, threads=arguments.threads) as renderer:
+    with e3d.Renderer(
+        width, height, threads=arguments.threads, look="plain", samples=1
+    ) as renderer:
         for count in COUNTS:
             if count > arguments.most:
                 break
             scene, cars = city_scene(world, count, arguments.range)
-            frames = {s: renderer.render(scene, street_camera(0), shading=s) for s in SHADINGS}
+            frames = {
+                s: renderer.render(scene, street_camera(0), shading=s, cull="back")
+                for s in SHADINGS
+            }
             row = {"lights": count}
             row["same_bytes"] = bool((frames["forward"].color == frames["deferred"].color).all())
             for shading in SHADINGS:

@@ -42,7 +42,7 @@ def _scene(count):
 
 def unchanged(count=1):
     scene, _, _ = _scene(count)
-    return lambda renderer, k: renderer.render(scene)
+    return lambda renderer, k: renderer.render(scene, cull="back")
 
 
 def moving_camera(count=1):
@@ -51,7 +51,7 @@ def moving_camera(count=1):
 
     def draw(renderer, k):
         camera.pose = views[k % PLACES]
-        return renderer.render(scene)
+        return renderer.render(scene, cull="back")
 
     return draw
 
@@ -62,7 +62,7 @@ def camera_by_look_at():
 
     def draw(renderer, k):
         pose = e3d.look_at((3 + 0.001 * (k % PLACES), 2, 4), (0, 0, 0))
-        return renderer.render(scene, (camera, pose))
+        return renderer.render(scene, (camera, pose), cull="back")
 
     return draw
 
@@ -72,7 +72,7 @@ def moving_node(count=1):
 
     def draw(renderer, k):
         nodes[count // 2].translation = (0.001 * (k % PLACES), 0, 0)
-        return renderer.render(scene)
+        return renderer.render(scene, cull="back")
 
     return draw
 
@@ -85,7 +85,7 @@ def moving_lights():
     def draw(renderer, k):
         for light in lights:
             light.pose = views[k % PLACES]
-        return renderer.render(scene)
+        return renderer.render(scene, cull="back")
 
     return draw
 
@@ -93,7 +93,7 @@ def moving_lights():
 def automatic_framing():
     scene = e3d.Scene()
     scene.add(e3d.box())
-    return lambda renderer, k: renderer.render(scene)
+    return lambda renderer, k: renderer.render(scene, cull="back")
 
 
 # name of a row -> function that makes what is called
@@ -114,7 +114,7 @@ def measure_calls(calls):
     """Yield a row for each kind of call."""
     for name, make in CALLS.items():
         draw = make()
-        with e3d.Renderer(SIDE, SIDE, threads=1) as renderer:
+        with e3d.Renderer(SIDE, SIDE, threads=1, look="plain", samples=1) as renderer:
             core = min(draw(renderer, k).stats["ms_total"] for k in range(20))
             best = math.inf
             for _ in range(ROUNDS):

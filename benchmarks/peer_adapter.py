@@ -39,6 +39,7 @@ class Peer:
         self.renderer = e3d.Renderer(
             scene.width,
             scene.height,
+            look="plain",
             color_space="linear",
             samples=scene.samples,
             antialiasing="msaa" if scene.samples > 1 else "ssaa",
@@ -57,6 +58,7 @@ class Peer:
         self.frame = self.renderer.render(
             self.scene,
             (self.camera, pose),
+            cull="back",
             mode="unlit" if source.mode in UNLIT else "lit",
             outputs=(self.output,),
         )

@@ -38,12 +38,12 @@ def draw(scene, arguments, frames):
     width, height = arguments.size
     results = []
     with e3d.Renderer(
-        width, height, backend=arguments.backend, threads=arguments.threads
+        width, height, backend=arguments.backend, threads=arguments.threads, look="plain", samples=1
     ) as renderer:
-        frame = renderer.render(scene)
+        frame = renderer.render(scene, cull="back")
         for _ in range(frames):
             start = time.perf_counter()
-            frame = renderer.render(scene, out=frame)
+            frame = renderer.render(scene, out=frame, cull="back")
             results.append((dict(frame.stats), 1e3 * (time.perf_counter() - start)))
     return results
 

@@ -78,12 +78,12 @@ def measure(side, rounds):
     def select(view):
         return lambda number: scene.data.arrays.select(view, 1.0, False, bits)
 
-    renderer = e3d.Renderer(64, 36)
+    renderer = e3d.Renderer(64, 36, look="plain", samples=1)
 
     def draw(eye, batching):
         def work(number):
             pose = e3d.look_at(eye + (0, 0, 0.001 * number), middle + (1, 2, 3))
-            renderer.render(scene, (camera, pose), batching=batching)
+            renderer.render(scene, (camera, pose), cull="back", batching=batching)
 
         return work
 

@@ -75,9 +75,16 @@ def measure_kernel(name, backends, repeats):
 def measure_frame(name, backends, arguments):
     """A row: milliseconds of a frame for each backend."""
     workload, options = FRAMES[name]
+    options = {"cull": "back", **options}
     scene = WORKLOADS[workload][1]()
     renderers = {
-        backend: e3d.Renderer(*arguments.size, backend=backend, threads=arguments.threads)
+        backend: e3d.Renderer(
+            *arguments.size,
+            backend=backend,
+            threads=arguments.threads,
+            look="plain",
+            samples=1,
+        )
         for backend in backends
     }
     frames = {backend: each.render(scene, **options) for backend, each in renderers.items()}

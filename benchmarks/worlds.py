@@ -242,10 +242,12 @@ MEASURES = {
 def measure(arguments):
     """Yield a row for each figure."""
     width, height = arguments.size
-    options = {"culling": arguments.culling}
+    options = {"culling": arguments.culling, "cull": "back"}
     for part in arguments.part or PARTS:
         gc.collect()
-        with e3d.Renderer(width, height, threads=arguments.threads) as renderer:
+        with e3d.Renderer(
+            width, height, threads=arguments.threads, look="plain", samples=1
+        ) as renderer:
             for name, row in MEASURES[part](renderer, arguments, options):
                 yield {"what": name, **row}
 

@@ -31,6 +31,7 @@ from .io.loaders import load_mesh as load_mesh
 from .io.loaders import load_texture as load_texture
 from .io.output.animation_saving import save_animation as save_animation
 from .io.scenes.scene_loading import load_scene as load_scene
+from .io.scenes.upright_loading import load as load
 from .io.writers import save_mesh as save_mesh
 from .io.writing.scene_saving import save_scene as save_scene
 from .model.environments.environment import Environment as Environment
@@ -70,10 +71,11 @@ from .model.spatial.rays import RayHits as RayHits
 from .rendering.backend_selection import backends as backends
 from .rendering.canvas import Canvas as Canvas
 from .rendering.frame import Frame as Frame
-from .rendering.framing import frame_bounds as frame_bounds
-from .rendering.framing import frame_scene as frame_scene
 from .rendering.options import RenderOptions as RenderOptions
-from .rendering.renderer import Renderer as Renderer
+from .stage.look import Look as Look
 from .stage.render import render as render
+from .stage.renderer import Renderer as Renderer
+from .stage.views.framing import frame_bounds as frame_bounds
+from .stage.views.framing import frame_scene as frame_scene
 from .version import PICTURES as PICTURES
 from .version import __version__ as __version__

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AlphaMode",
     "Antialias",
+    "Backdrop",
     "Backend",
     "BuiltInEnvironment",
     "Color",
@@ -30,8 +31,10 @@ __all__ = [
     "HiddenSurfaces",
     "ImageFormat",
     "Interpolation",
+    "LightSetup",
     "LightShadow",
     "LineShape",
+    "LookName",
     "Loop",
     "Mode",
     "MotionPath",
@@ -89,6 +92,10 @@ ToneMapping = Literal["none", "neutral", "aces", "agx"]
 Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window", "gltf"]
+LightSetup = Literal["studio", "headlight", "sun", "two colours"]
+#: What models are drawn in: names of looks, and the words for their backgrounds.
+LookName = Literal["studio", "plain"]
+Backdrop = Literal["auto", "dark", "light", "scene"]
 LightShadow = Literal[False, True, "exact"]
 ShadowTaps = Literal[1, 3, 5]
 AlphaMode = Literal["opaque", "mask", "blend"]

@@ -84,7 +84,15 @@ def steps(width=240, height=180, model=TEAPOT):
     yield f"the model: {drawn}", draw_edges(turned, edges, width, height)
 
     view = engine_view(model, width, height)
-    frame = e3d.render(*view, size=(width, height), wireframe="only", line_color=LINE)
+    frame = e3d.render(
+        *view,
+        size=(width, height),
+        wireframe="only",
+        line_color=LINE,
+        look="plain",
+        samples=1,
+        cull="back",
+    )
     yield "the engine's, without the lines that faces hide", frame.color[:, :, :3]
 
 

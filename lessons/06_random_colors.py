@@ -59,7 +59,9 @@ def steps(width=240, height=180, model=TEAPOT):
         yield f"the first {count} triangles of the file", picture.copy()
 
     view = wireframe.engine_view(model, width, height)
-    frame = e3d.render(*view, size=(width, height), mode="random")
+    frame = e3d.render(
+        *view, size=(width, height), mode="random", look="plain", samples=1, cull="back"
+    )
     yield "the engine's mode 'random': only what is in front shows", frame.color[:, :, :3]
 
 

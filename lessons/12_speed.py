@@ -47,10 +47,10 @@ def flags():
 
 def frames_per_second(renderer, view, seconds=1.0):
     """Draw for a while; return how many frames a second that makes."""
-    frame = renderer.render(*view)
+    frame = renderer.render(*view, cull="back")
     frames, start = 0, time.perf_counter()
     while time.perf_counter() - start < seconds:
-        frame = renderer.render(*view, out=frame)
+        frame = renderer.render(*view, cull="back", out=frame)
         frames += 1
     return frames / (time.perf_counter() - start), frame
 
@@ -60,7 +60,9 @@ def measure():
     view = wireframe.engine_view(TEAPOT, 640, 360)
     first = None
     for backend in e3d.backends():
-        with e3d.Renderer(640, 360, backend=backend, threads=1) as renderer:
+        with e3d.Renderer(
+            640, 360, backend=backend, threads=1, look="plain", samples=1
+        ) as renderer:
             rate, frame = frames_per_second(renderer, view)
         first = frame.color.copy() if first is None else first
         same = "same" if np.array_equal(first, frame.color) else "other"
@@ -84,7 +86,9 @@ def steps(width=48, height=24):
     size = width * 5, height * 7
     view = wireframe.engine_view(TEAPOT, *size)
     frames = [
-        e3d.render(*view, size=size, backend=name, threads=threads).color
+        e3d.render(
+            *view, size=size, backend=name, threads=threads, look="plain", samples=1, cull="back"
+        ).color
         for name, threads in (("portable", 1), ("auto", 0))
     ]
     other = int((frames[0] != frames[1]).any(axis=2).sum())

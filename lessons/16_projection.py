@@ -100,7 +100,9 @@ def engine_floor(width, height):
     scene = e3d.Scene(background=(30, 33, 40))
     scene.add(mesh)
     camera = e3d.PerspectiveCamera(YFOV, znear=NEAR), np.eye(4)
-    return e3d.render(scene, camera, size=(width, height), mode="unlit").color[:, :, :3]
+    return e3d.render(
+        scene, camera, size=(width, height), mode="unlit", look="plain", samples=1, cull="back"
+    ).color[:, :, :3]
 
 
 def steps(width=200, height=150):

@@ -94,7 +94,9 @@ def engine_floor(width, height, segments=1, normals="auto"):
     scene.add(e3d.PointLight(intensity=math.pi * INTENSITY), translation=LIGHT)
     camera = e3d.OrthographicCamera(SIDE / 2), e3d.look_at((0, 5, 0), (0, 0, 0), (0, 0, -1))
     how = {"color_space": "linear", "normals": normals}
-    frame = e3d.render(scene, camera, size=(width, height), **how)
+    frame = e3d.render(
+        scene, camera, size=(width, height), look="plain", samples=1, cull="back", **how
+    )
     return frame.color[:, :, :3]
 
 

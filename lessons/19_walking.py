@@ -28,6 +28,8 @@ COLORS = {
     "=": (190, 120, 80),
 }
 STEP, RADIUS, EYES = 0.4, 0.25, 1.0
+#: Four whole samples a pixel, of the scene as it is.
+EXACT = {"look": "plain", "samples": 4, "antialiasing": "ssaa", "cull": "back"}
 
 
 def look_at(eye, target):
@@ -158,7 +160,7 @@ def view(scene, place, width, height):
     pose[:3, :3] = np.transpose(axes)
     pose[:3, 3] = eye
     camera = e3d.PerspectiveCamera(1.1, znear=0.05, zfar=50.0)
-    return e3d.render(scene, (camera, pose), size=(width, height), samples=4).color[:, :, :3]
+    return e3d.render(scene, (camera, pose), size=(width, height), **EXACT).color[:, :, :3]
 
 
 def steps(width=240, height=180):

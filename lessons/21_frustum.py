@@ -125,7 +125,7 @@ def draw(chunks, width, height, eye=EYE, color_of=lambda number: (255, 255, 255)
         mesh.materials = [e3d.Material(color=color_of(number))]
         scene.add(mesh)
     camera = CAMERA, e3d.look_at(eye, TARGET)
-    frame = e3d.render(scene, camera, size=(width, height))
+    frame = e3d.render(scene, camera, size=(width, height), look="plain", samples=1, cull="back")
     return frame.color[:, :, :3], frame.stats
 
 

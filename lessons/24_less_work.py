@@ -11,6 +11,8 @@ from lesson import blank, main
 WALL_Z = 2.0
 COLORS = ((110, 190, 110), (90, 150, 230), (255, 200, 0), (240, 110, 90))
 HIDDEN = (75, 80, 92)
+#: One sample a pixel and the scene as it is, to compare every byte.
+EXACT = {"look": "plain", "samples": 1, "cull": "back"}
 
 
 def boxes(count=400, seed=3):
@@ -52,7 +54,9 @@ def occlusion(width, height):
     scene, nodes, (camera, pose) = hidden_scene(width, height)
     for node in nodes:
         node.visible = False
-    frame = e3d.render(scene, (camera, pose), size=(width, height), outputs=("color", "depth"))
+    frame = e3d.render(
+        scene, (camera, pose), size=(width, height), outputs=("color", "depth"), **EXACT
+    )
     depth = np.where(frame.depth > 0, frame.depth, np.inf)
     coarse = depth.reshape(height // 8, 8, width // 8, 8).max(axis=(1, 3))
     yield "the wall alone, drawn first", frame.color[:, :, :3]
@@ -62,10 +66,10 @@ def occlusion(width, height):
     for node, place in zip(nodes, boxes(), strict=True):
         node.visible = not occluded(place - 0.2, place + 0.2, matrix, coarse, width, height)
         kept += node.visible
-    some = e3d.render(scene, (camera, pose), size=(width, height)).color
+    some = e3d.render(scene, (camera, pose), size=(width, height), **EXACT).color
     for node in nodes:
         node.visible = True
-    every = e3d.render(scene, (camera, pose), size=(width, height)).color
+    every = e3d.render(scene, (camera, pose), size=(width, height), **EXACT).color
     other = int((some != every).any(axis=2).sum())
     caption = f"{kept} of {len(nodes)} boxes may show; {other} pixels differ from all of them"
     yield caption, some[:, :, :3]
@@ -99,7 +103,7 @@ def levels(width, height):
             full += len(meshes[0].faces)
     camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=100.0)
     pose = e3d.look_at((0.0, 5.0, 10.0), (0.0, 0.0, -8.0))
-    frame = e3d.render(scene, (camera, pose), size=(width, height))
+    frame = e3d.render(scene, (camera, pose), size=(width, height), **EXACT)
     yield f"levels of detail: {triangles} triangles instead of {full}", frame.color[:, :, :3]
 
 
@@ -148,7 +152,7 @@ def batching(width, height):
         (scenes[0], "nodes in a batch", True),
         (scenes[1], "instances", True),
     ):
-        frame = e3d.render(scene, camera, size=(width, height), batching=batched)
+        frame = e3d.render(scene, camera, size=(width, height), **EXACT, batching=batched)
         first = frame.color if first is None else first
         other = int((first != frame.color).any(axis=2).sum())
         caption = f"{name}: {frame.stats['draws']} draws; {other} pixels differ"
@@ -163,7 +167,7 @@ def measure():
         (scenes[0], "batch", True),
         (scenes[1], "instances", True),
     ):
-        with e3d.Renderer(640, 480, threads=1) as renderer:
+        with e3d.Renderer(640, 480, threads=1, look="plain", samples=1) as renderer:
             renderer.render(scene, camera, batching=batched)
             start = time.perf_counter()
             for _ in range(10):

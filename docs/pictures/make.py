@@ -38,6 +38,8 @@ FOLDER = Path(__file__).resolve().parent
 MODELS = files("engine3d.data") / "models"
 SAMPLES = 16
 PAPER = (30, 33, 40)
+#: One sample of the scene as it is.
+EXACT = {"look": "plain", "samples": 1, "antialiasing": "ssaa", "cull": "back"}
 CAPTION = (255, 255, 255)
 
 
@@ -71,7 +73,7 @@ def add_daylight(scene):
 
 def draw(scene, camera, size, **options) -> np.ndarray:
     """Return a picture as (H, W, 4) uint8."""
-    return e3d.render(scene, camera, size=size, samples=SAMPLES, **options).color
+    return e3d.render(scene, camera, size=size, **{**EXACT, "samples": SAMPLES, **options}).color
 
 
 def look(eye, target, yfov=0.34):
@@ -147,7 +149,7 @@ def filters() -> np.ndarray:
         scene = e3d.Scene(background=PAPER)
         scene.add(floor)
         camera = look((0.0, 2.2, 30.0), (4.0, 0.0, 8.0), 0.6)
-        frame = e3d.render(scene, camera, size=(420, 240), mode="unlit")
+        frame = e3d.render(scene, camera, size=(420, 240), mode="unlit", **EXACT)
         tiles.append((name, frame.color))
     return sheet(tiles, 3)
 
@@ -157,7 +159,7 @@ def scenes() -> np.ndarray:
     tiles = []
     for name, time in (("shapes", 1.1), ("edges", 0.9), ("faces", 2.1)):
         with ViewRenderer(
-            load_demo(name), Settings(appearance={}), (420, 280), samples=SAMPLES
+            load_demo(name), Settings({}, look="studio"), (420, 280), samples=SAMPLES
         ) as view_renderer:
             tiles.append((f"--scene {name}", view_renderer.draw(view_renderer.view(), time).color))
     return sheet(tiles, 3)
@@ -269,7 +271,9 @@ def walls() -> np.ndarray:
 
 def viewer() -> np.ndarray:
     """What the viewer's window shows: a model with its edges, grid, axes, what the file holds."""
-    settings = Settings(appearance={"wireframe": "overlay"}, grid=True, axes=True, metadata=True)
+    settings = Settings(
+        {"wireframe": "overlay"}, look="studio", grid=True, axes=True, metadata=True
+    )
     viewed = open_model(MODELS / "train.asc")
     with ViewRenderer(viewed, settings, (1260, 600), samples=SAMPLES) as view_renderer:
         return view_renderer.draw(view_renderer.view()).color
@@ -279,7 +283,7 @@ def city() -> np.ndarray:
     """The city as one who walks sees it, and from above."""
     tiles = []
     size, viewed = (630, 354), load_demo("city", dusk=True)
-    with ViewRenderer(viewed, Settings(appearance={}), size, samples=4) as view_renderer:
+    with ViewRenderer(viewed, Settings({}, look="studio"), size, samples=4) as view_renderer:
         for caption, walks in (("--dusk --camera fps", True), ("--scene city --dusk", False)):
             view = view_renderer.view()
             if walks:

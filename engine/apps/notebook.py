@@ -22,11 +22,11 @@ from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
+from ..stage.look import LookChoice
 from ..stage.numbers import MarkKeywords, take_marks
-from ..stage.stage_settings import Settings
 from ..stage.view_renderer import ViewRenderer
 from ..stage.viewed_scene import TURN_SECONDS
-from ..stage.viewed_thing import check_motion, viewed_thing
+from ..stage.viewed_thing import check_motion, settings_for, viewed_thing
 from ..stage.views.first_view import view_of_scene
 from . import events
 from .viewer.sampling import Sampling
@@ -67,12 +67,14 @@ class View(RemoteFrameBuffer):
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh or InstancedMesh
-        As for `engine3d.show`.
+    thing : path, Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+        As for `engine3d.render`.
     size : (int, int)
         Width and height in the page's pixels, at first: the corner can be dragged.
-    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
-        Which way is up.
+    look : {"studio", "plain"} or Look
+        As for `engine3d.Renderer`.
+    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}, optional
+        Which way is up; by default +Y, or as the file says.
     update : callable, optional
         Called with the time in seconds before each picture, to move the scene's nodes. Left out,
         the first of ``scene.animations`` plays when Space is pressed.
@@ -101,10 +103,11 @@ class View(RemoteFrameBuffer):
 
     def __init__(
         self,
-        thing: Scene | Node | Mesh | InstancedMesh,
+        thing: Scene | Node | Mesh | InstancedMesh | Any,
         *,
         size: tuple[int, int] = (640, 400),
-        up: str = "+Y",
+        look: LookChoice = "studio",
+        up: str | None = None,
         update: Callable[[float], None] | None = None,
         period: float = TURN_SECONDS,
         quality: int = 80,
@@ -114,6 +117,7 @@ class View(RemoteFrameBuffer):
         width, height = check_size(size)
         check_motion(update, "update")
         taken = take_marks(dict(marks))
+        settings = settings_for(thing, look, marks=taken)
         viewed = viewed_thing(thing, title=None, up=up, update=update, period=period, marks=taken)
         if viewed is None:
             raise InvalidArgumentError(
@@ -123,7 +127,6 @@ class View(RemoteFrameBuffer):
             raise InvalidArgumentError(f"quality must be a whole number in 1..100, not {quality!r}")
         super().__init__(css_width=f"{width}px", css_height=f"{height}px", quality=quality)
         self._page = _Page((width, height))
-        settings = Settings({}, bar=taken.bar, axes_grid=taken.axes_grid)
         self._view_renderer = ViewRenderer(viewed, settings, (width, height))
         self._viewer = Viewer(
             self._view_renderer,

@@ -39,7 +39,6 @@ _NAMES: dict[str, dict[str, str]] = {
         "Trimesh": "Mesh",
         "PolyData": "Mesh",
         "BufferGeometry": "Mesh",
-        "load": "load_mesh or load_scene",
         "read": "load_mesh or load_scene",
         "read_triangle_mesh": "load_mesh",
         "save": "save_mesh or save_scene",

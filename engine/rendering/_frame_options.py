@@ -20,7 +20,6 @@ from .._native.rasterizer import same_objects
 from ..base import linalg
 from ..base.calls import refuse_unknown
 from ..choices import Color, ColorSpace
-from ..errors import InvalidArgumentError
 from ..model.environments.environment import Environment
 from ..model.materials.display_colors import display_color, exact_display_color, shading_color
 from ..model.scene.fog import Fog
@@ -40,6 +39,7 @@ from .options import (
     RenderKeywords,
     RenderOptions,
     check_outputs,
+    checked_options,
     core_numbers,
     shows_light,
 )
@@ -234,26 +234,10 @@ class OptionsCache:
         self._found: dict[int, tuple[tuple[Any, ...], FrameOptions]] = {}
 
     def named(self, options: RenderOptions | None, keywords: OptionKeywords) -> RenderOptions:
-        """Return the options of a call: the given ones, or those that its keywords name.
-
-        Raises
-        ------
-        InvalidArgumentError
-            An option is wrong, or both options and keywords were given.
-        TypeError
-            A keyword is not an option.
-        """
-        if options is None:
-            return self._of_keywords(keywords) if keywords else DEFAULTS
-        if not isinstance(options, RenderOptions):
-            given = type(options).__name__
-            raise InvalidArgumentError(f"options must be RenderOptions, not {given}")
-        if keywords and self._of_keywords(keywords) != DEFAULTS:
-            raise InvalidArgumentError(
-                "give options or keyword arguments, not both: "
-                "dataclasses.replace makes other options"
-            )
-        return options
+        """Return the options of a call as `checked_options` does; the same object each time."""
+        if options is not None:
+            return checked_options(options, keywords)
+        return self._of_keywords(keywords) if keywords else DEFAULTS
 
     def _of_keywords(self, keywords: OptionKeywords) -> RenderOptions:
         names = keywords.pop("outputs", DEFAULTS.outputs)

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..model.scene.cameras import Camera
 from ..model.scene.staged_scene import AnyScene
-from ._view import CameraChoice, View, find_camera
+from ._view import View
+from .camera_choice import CameraChoice, find_camera
 from .draw_list.draw_list import DrawList
 from .framing import frame_scene
 

@@ -7,6 +7,7 @@ The same inputs give the same bits on every machine.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -21,8 +22,10 @@ from ..model.scene.cameras import PerspectiveCamera
 from ..model.scene.scene import Scene
 from .support_functions import SupportFunction, support_of_box, support_of_scene
 
-_DIRECTION = (-0.35, -0.25, -1.0)
-_UP = (0.0, 1.0, 0.0)
+#: The default field of view of the longer side of a picture, in radians.
+LENS = math.radians(38.0)
+DIRECTION = (-0.35, -0.25, -1.0)
+UP = (0.0, 1.0, 0.0)
 # The planes keep this fraction of their distance as a margin, so that rounding cuts nothing off.
 _SLACK = 1e-4
 _SECANTS = 2
@@ -34,9 +37,9 @@ def frame_bounds(
     bounds: ArrayLike,
     *,
     aspect: float = 1.0,
-    yfov: float = 0.9,
-    direction: ArrayLike = _DIRECTION,
-    up: ArrayLike = _UP,
+    yfov: float | None = None,
+    direction: ArrayLike = DIRECTION,
+    up: ArrayLike = UP,
     margin: float = 1.05,
 ) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     """Return a camera and its pose that show a whole box, as large as possible.
@@ -47,8 +50,8 @@ def frame_bounds(
         Smallest and largest corner in world space, such as ``mesh.bounds`` or ``scene.bounds``.
     aspect : float
         Width over height of the image.
-    yfov : float
-        Vertical field of view in radians.
+    yfov : float, optional
+        Vertical field of view in radians; by default the longer side has 38 degrees.
     direction : (3,) float
         The view direction; by default from the front, slightly from the right and above.
     up : (3,) float
@@ -74,9 +77,9 @@ def frame_scene(
     scene: Scene,
     *,
     aspect: float = 1.0,
-    yfov: float = 0.9,
-    direction: ArrayLike = _DIRECTION,
-    up: ArrayLike = _UP,
+    yfov: float | None = None,
+    direction: ArrayLike = DIRECTION,
+    up: ArrayLike = UP,
     margin: float = 1.05,
 ) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     """Return a camera and its pose that show a whole scene, as large as possible.
@@ -105,19 +108,32 @@ def frame_scene(
     return _frame(support_of_scene(scene), scene.bounds, aspect, yfov, direction, up, margin)
 
 
+def lens_for(aspect: float) -> float:
+    """Return the default vertical field of view of a picture, in radians.
+
+    Parameters
+    ----------
+    aspect : float
+        Width over height.
+    """
+    return LENS if aspect <= 1.0 else 2.0 * linalg.atan2(linalg.tan(0.5 * LENS), aspect)
+
+
 @np.errstate(all="ignore")
 def _frame(
     support: SupportFunction | None,
     bounds: ArrayLike,
     aspect: float,
-    yfov: float,
+    yfov: float | None,
     direction: ArrayLike,
     up: ArrayLike,
     margin: float,
 ) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     smallest, largest = _corners(bounds)
+    aspect = positive(aspect, "aspect")
+    yfov = lens_for(aspect) if yfov is None else yfov
     y_slope = linalg.tan(0.5 * field_of_view(yfov))
-    x_slope = y_slope * positive(aspect, "aspect")
+    x_slope = y_slope * aspect
     margin = positive(margin, "margin")
     center, half = (smallest + largest) * 0.5, (largest - smallest) * 0.5
     if not half.any():

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, get_args
 
 from .._native import rasterizer as _native
-from ..base.calls import Function, checks_types, hints_keywords
+from ..base.calls import Function, checks_types, hints_keywords, refuse_unknown
 from ..base.numbers import real, shown
 from ..base.validation import choose, flag, one_of, optional_positive
 from ..choices import (
@@ -35,7 +35,7 @@ from ..model.materials.colors import check_color
 from .frame import OUTPUTS, Output
 
 if TYPE_CHECKING:
-    from ._view import CameraChoice
+    from .camera_choice import CameraChoice
     from .frame import Frame
 
 #: Checks the value of a named option, and returns the value to keep.
@@ -216,7 +216,7 @@ class RenderOptions:
 
     mode: Mode = _choice("lit", _native.MODES, "mode")
     wireframe: Wireframe | None = _choice(None, _native.WIREFRAMES, "wireframe")
-    cull: FrameCull = _choice("back", {**_native.CULLS, "auto": _native.CULLS["back"]}, "cull")
+    cull: FrameCull = _choice("auto", {**_native.CULLS, "auto": _native.CULLS["back"]}, "cull")
     shading: Shading = _choice("deferred", _native.SHADINGS, "shading")
     outputs: Iterable[Output] = _option(("color",), lambda value, _: check_outputs(value))
     normals: Normals = _choice("auto", _native.NORMALS, "normals")
@@ -269,6 +269,29 @@ if RenderOptions.__doc__ is not None:  # which -OO leaves out
         "holds: see `Frame`.", f"holds; see `Frame`:\n    {_outputs}."
     )
 DEFAULTS = RenderOptions()
+
+
+def checked_options(options: RenderOptions | None, keywords: OptionKeywords) -> RenderOptions:
+    """Return the options of a call: the given ones, or those that its keywords name.
+
+    Raises
+    ------
+    InvalidArgumentError
+        An option is wrong, or both options and keywords were given.
+    TypeError
+        A keyword is not an option.
+    """
+    refuse_unknown("render", keywords, RenderKeywords.__annotations__)
+    named = RenderOptions(**keywords) if keywords else DEFAULTS
+    if options is None:
+        return named
+    if not isinstance(options, RenderOptions):
+        raise InvalidArgumentError(f"options must be RenderOptions, not {type(options).__name__}")
+    if named != DEFAULTS:
+        raise InvalidArgumentError(
+            "give options or keyword arguments, not both: dataclasses.replace makes other options"
+        )
+    return options
 
 
 def core_numbers(options: RenderOptions) -> dict[str, float]:

@@ -21,9 +21,9 @@ from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
 from ._turn import RendererTurn
-from ._view import CameraChoice
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
+from .camera_choice import CameraChoice
 from .draw_list.draw_list import DrawList
 from .draw_list.placement import Placing
 from .frame import Frame

@@ -47,11 +47,18 @@ class Surroundings:
     shows: bool = False
     blur: float | None = None
 
-    def put(self, scene: StagedScene) -> None:
-        """Apply the settings to a scene."""
+    def put(self, scene: StagedScene, automatic: bool = True) -> None:
+        """Apply the settings to a scene.
+
+        Parameters
+        ----------
+        scene : StagedScene
+        automatic : bool
+            Whether physically based materials get an environment to reflect.
+        """
         if self.environment is not None or self.without:
             scene.environment = self.environment
-        elif scene.environment is None and _has_physical(scene.scene):
+        elif automatic and scene.environment is None and _has_physical(scene.scene):
             scene.environment = Environment.studio()
             scene.environment_intensity = _USUAL_INTENSITY
         if self.rotation is not None:

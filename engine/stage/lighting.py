@@ -1,7 +1,7 @@
 """Light set-ups beside a scene.
 
-In: a scene and, each frame, the camera's pose. Out: light nodes beside it; one set-up is visible at
-a time. All set-ups except "sun" move with the camera, so that the subject is never dark; the
+In: a scene and, each frame, the camera's pose. Out: light nodes beside it, of one set-up
+at a time. All set-ups except "sun" move with the camera, so that the subject is never dark; the
 scene's own lights, if any, are the first set-up.
 """
 
@@ -48,6 +48,9 @@ SETUPS = {
 }
 FIXED_SETUPS = ("sun",)
 OWN_LIGHTS = "scene"
+#: The set-up without lights: the renderer lights the scene from the camera.
+NO_LIGHTS = "plain"
+_UNTURNED = (OWN_LIGHTS, NO_LIGHTS)
 _IN_ENVIRONMENT = 0.6  # factor for set-ups in an environment, which also lights
 
 
@@ -62,44 +65,56 @@ class Lighting:
         The world's up direction.
     intensity : float
         Factor for the set-ups. An environment dims them.
+    first : str
+        The first set-up of a scene without lights: a key of `SETUPS`, or `NO_LIGHTS`.
     """
 
-    def __init__(self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0) -> None:
-        own = [node for node in staged.scene.nodes if is_light(node) and node.visible]
+    def __init__(
+        self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0, first: str = "studio"
+    ) -> None:
+        own = [
+            cast(Light, node.object)
+            for node in staged.scene.nodes
+            if is_light(node) and node.visible
+        ]
         self._staged = staged
-        self._nodes = {OWN_LIGHTS: own} if own else {}
+        self._lights: dict[str, list[Light]] = {OWN_LIGHTS: own} if own else {}
+        self._nodes: list[Node] = []  # of the chosen set-up, beside the scene
+        if first == NO_LIGHTS:
+            self._lights[NO_LIGHTS] = []
         self._home = np.stack(tuple(home_axes(up)), axis=1)
         if staged.environment is not None:
             intensity *= _IN_ENVIRONMENT
         intensity *= WHITE_INTENSITY
         for name, lights in SETUPS.items():
-            self._nodes[name] = [
-                staged.beside.add(DirectionalLight(direction, linear(color), strength * intensity))
+            self._lights[name] = [
+                DirectionalLight(direction, linear(color), strength * intensity)
                 for direction, color, strength in lights
             ]
-        self.names = tuple(self._nodes)
-        self.choose(self.names[0])
+        self.names = tuple(self._lights)
+        self.choose(OWN_LIGHTS if own else first)
 
     def choose(self, name: str) -> None:
         """Light the scene with one set-up only."""
         self.name = name
         self._turn: np.ndarray | None = None
         self._staged.keep_lights(name == OWN_LIGHTS)
-        for setup in self._nodes.keys() - {OWN_LIGHTS}:
-            for node in self._nodes[setup]:
-                node.visible = setup == name
+        for node in self._nodes:
+            self._staged.beside.remove(node)
+        added = [] if name == OWN_LIGHTS else self._lights[name]
+        self._nodes = [self._staged.beside.add(light) for light in added]
 
     def groups(self) -> list[list[Light]]:
         """Return the groups of lights that shine together, one for each set-up."""
-        return [[cast(Light, node.object) for node in nodes] for nodes in self._nodes.values()]
+        return list(self._lights.values())
 
     def follow(self, pose: np.ndarray) -> None:
         """Rotate the set-up with the camera, whose pose is (4, 4)."""
-        if self.name == OWN_LIGHTS:
+        if self.name in _UNTURNED:
             return
         base = self._base(pose)
         turned = _pose_of(base if self._turn is None else _product(base, self._turn))
-        for node in self._nodes[self.name]:
+        for node in self._nodes:
             node.pose = turned
 
     def _base(self, pose: np.ndarray) -> np.ndarray:
@@ -114,7 +129,7 @@ class Lighting:
         bool
             Whether it turned: the scene's own lights never do.
         """
-        if self.name == OWN_LIGHTS:
+        if self.name in _UNTURNED:
             return False
         base = self._base(pose)
         turned = _product(base.T, _product(_seen_turn(pose, dx, dy), base))

@@ -1,7 +1,7 @@
 """Opens a model file as a `ViewedScene`.
 
-In: a path, and a texture or colour for meshes without materials. Out: a scene with a neutral
-background, the format's usual up direction, and the file's counts and warnings.
+In: a path, and a texture or colour for meshes without materials. Out: a scene, the format's usual
+up direction, and the file's counts and warnings.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
 from .coloring import Coloring
 from .numbers import Numbers
-from .overlays.theme import DARK
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
@@ -105,7 +104,7 @@ def read_model(
     texture : path-like, optional
         The base colour texture of the meshes without materials.
     color : (3,) sequence, optional
-        The base colour of the meshes without materials. If there are none, a warning says so.
+        The base colour of the meshes without materials.
     variant : str or int, optional
         As in `engine3d.load_scene`.
     numbers : Numbers, optional
@@ -147,8 +146,6 @@ def view_document(
 ) -> ViewedScene:
     """Return a document as a scene for viewing; see `open_model`."""
     scene = scene_from_document(document, variant)
-    if document.scene is None:
-        scene.background = DARK.background
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
@@ -156,7 +153,7 @@ def view_document(
         update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
         # glTF defines the visible sides per material; other files do not, or are often wrong.
-        appearance={} if document.tree is not None else {"cull": "auto"},
+        appearance={"cull": "back" if document.tree is not None else "auto"},
         path=path,
         format=document.format,
         details=document_lines(document),
@@ -175,9 +172,9 @@ def has_materials(mesh: Mesh) -> bool:
 
 
 def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -> None:
-    """Give the meshes' materials the image and the colour; warn if that changes nothing."""
-    if not meshes:
-        _warn("the model has materials of its own: it gets no other texture or colour")
+    """Give the meshes' materials the image and the colour; warn of an image that does not show."""
+    if image is not None and not meshes:
+        _warn("the model has materials of its own: it gets no other texture")
     elif image is not None and all(mesh.uvs is None for mesh in meshes):
         _warn("the model has no texture coordinates: the texture does not show")
     for material in (material for mesh in meshes for material in mesh.materials):

@@ -79,7 +79,9 @@ def turning_outline(scene: Scene, up: ArrayLike) -> np.ndarray:
     if top == bottom and not widths.any():
         bottom, top, widths = -1.0, 1.0, np.ones_like(widths)
     step = (top - bottom) / OUTLINE_BANDS or 1.0
-    bands = np.minimum(((heights - bottom) / step).astype(np.intp), OUTLINE_BANDS - 1)
+    with np.errstate(all="ignore"):
+        shares = np.nan_to_num((heights - bottom) / step)
+    bands = np.clip(shares, 0, OUTLINE_BANDS - 1).astype(np.intp)
     widest = np.zeros(OUTLINE_BANDS)
     np.maximum.at(widest, bands, widths)
     levels = bottom + step * np.arange(OUTLINE_BANDS + 1)

@@ -1,4 +1,4 @@
-"""Makes scenes of meshes, nodes and trimesh objects, for `render` and `show`.
+"""Makes scenes of meshes, nodes, points and trimesh objects, for `render` and `show`.
 
 In: one of these. Out: a `Scene` whose nodes share the given meshes.
 """
@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from ..io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
@@ -14,21 +16,28 @@ from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose, shown_object
 
+#: The ambient light of new scenes, and of scenes from files.
+_USUAL_AMBIENT = ((0.1, 0.1, 0.1), (0.0, 0.0, 0.0))
+
 
 def scene_of(thing: Any) -> Scene | None:
     """Return a scene that shows a thing; None if the thing cannot be shown.
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
-        A scene is returned unchanged. For a node, the new scene holds its visible subtree at its
-        world poses, in its current deformation.
+    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+        A scene is returned unchanged. An array holds points. For a node, the new scene holds its
+        visible subtree at its world poses, in its current deformation.
     """
     if isinstance(thing, Scene):
         return thing
     if is_of_trimesh(thing):
         return scene_from_trimesh(thing)
     scene = Scene()
+    if isinstance(thing, np.ndarray):
+        if thing.ndim != 2 or thing.shape[1] != 3 or thing.dtype.kind not in "fiu":
+            return None
+        thing = Mesh(thing, points=np.arange(len(thing)), name="points")
     if isinstance(thing, Mesh | InstancedMesh):
         scene.add(thing, name=getattr(thing, "name", "") or "mesh")
     elif isinstance(thing, Node):
@@ -38,6 +47,17 @@ def scene_of(thing: Any) -> Scene | None:
     else:
         return None
     return scene
+
+
+def is_lit(scene: Scene) -> bool:
+    """Return whether a scene has light of its own, so that it wears no look.
+
+    That is a light, visible or not, an environment, or another ambient light than that of new
+    scenes and of models in files.
+    """
+    if scene.environment is not None or tuple(scene.ambient) not in _USUAL_AMBIENT:
+        return True
+    return bool(scene.data.placed_lights())
 
 
 def _add_branch(scene: Scene, top: Node) -> None:

@@ -9,10 +9,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..choices import LightShadow
+from ..model.materials.material import Material
 from ..model.scene.fog import ExponentialFog, Fog
 from ..model.scene.gradients import Gradient
 from .chosen_surroundings import Surroundings
 from .filtering import Filtering
+from .look import Look, check_look
 from .overlays.theme import DARK, Theme
 
 
@@ -24,8 +26,10 @@ class Settings:
     ----------
     appearance : dict
         Fields of `Appearance` that were given.
-    look : {"studio", "plain"}
-        ``"studio"``: see `Studio`; ``"plain"``: a plain background, without a shadow.
+    look : Look
+        The look of models; a name is accepted.
+    material : Material or None
+        Replaces all materials and vertex colours of the scene.
     up : str or None
         A key of `viewpoint.UP_DIRECTIONS`.
     background : (3,) tuple of int, Gradient or None
@@ -66,12 +70,12 @@ class Settings:
     theme : Theme
         Dark or light.
     keeps_theme : bool
-        Whether to keep the theme in the look "studio", instead of choosing one that contrasts with
-        the model.
+        Whether to keep the theme, instead of choosing one that contrasts with the model.
     """
 
     appearance: dict[str, Any]
-    look: str = "plain"
+    look: Look = field(default_factory=Look.plain)
+    material: Material | None = None
     up: str | None = None
     background: tuple[int, int, int] | Gradient | None = None
     fog: Fog | ExponentialFog | None = None
@@ -98,3 +102,6 @@ class Settings:
     ui_scale: int | None = None
     theme: Theme = DARK
     keeps_theme: bool = False
+
+    def __post_init__(self) -> None:
+        self.look = check_look(self.look)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -15,9 +16,11 @@ from ..base import linalg
 from ..model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
+from ..model.scene.surroundings import Background
 from .appearance import Appearance
 from .chosen_surroundings import fog_color
-from .lighting import OWN_LIGHTS, Lighting, OnlyLight, placed_light
+from .lighting import NO_LIGHTS, OWN_LIGHTS, Lighting, OnlyLight, placed_light
+from .look import THEMED
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid
 from .overlays.grid_lines import grid
@@ -26,7 +29,8 @@ from .shadow_switch import switch_shadows
 from .stage_settings import Settings
 from .studio import BEHIND, Studio, theme_for
 from .viewed_scene import ViewedScene
-from .views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from .views.camera_view import AnyView
+from .views.viewpoint import UP_DIRECTIONS, Sphere
 from .visibility import Visibility
 
 #: A box around a sphere extends no farther than this, in radii.
@@ -64,10 +68,12 @@ class Staging:
     ) -> None:
         self.viewed = viewed
         self.settings = settings
-        self._transparent = transparent
+        sees_through = viewed.themed and settings.look.background is None
+        self._transparent = transparent or (sees_through and settings.background is None)
         self.scene = scene = StagedScene(viewed.scene)
         coloring = viewed.coloring
-        self.visibility = Visibility(scene, None if coloring is None else coloring.colored_thing)
+        shown_as = None if coloring is None else coloring.colored_thing
+        self.visibility = Visibility(scene, shown_as, settings.material)
         self.alone: np.ndarray | None = None
         settings.filtering.put(viewed.scene)
         self.show_textures(settings.textures)
@@ -75,15 +81,28 @@ class Staging:
             scene.light_clamp = settings.light_clamp
         if settings.exposure is not None:
             scene.exposure = settings.exposure
-        if transparent:
-            scene.background = None
-        elif settings.background is not None:
-            scene.background = settings.background
-        elif viewed.themed:
-            scene.background = self.theme.background
-        settings.surroundings.put(scene)
+        self._lay_background()
+        settings.surroundings.put(scene, settings.look.environment)
         self._lay_fog()
         self.stand(up, lights)
+
+    def _lay_background(self) -> None:
+        """Give the scene the background of the user or of the look."""
+        settings, background = self.settings, self.settings.look.background
+        if self._transparent:
+            self.scene.background = None
+        elif settings.background is not None:
+            self.scene.background = settings.background
+        elif self.viewed.themed and (settings.keeps_theme or background in THEMED):
+            self.scene.background = self._theme_background
+        elif self.viewed.themed and background != "scene":
+            self.scene.background = cast(Background, background)
+
+    @property
+    def _theme_background(self) -> Background:
+        """The background of a model in the colours of the theme."""
+        is_studio = self.settings.look.background in THEMED
+        return self.theme.gradient if is_studio else self.theme.background
 
     def stand(self, up: str, lights: str = "") -> None:
         """Rebuild the stage with a given up direction.
@@ -105,6 +124,7 @@ class Staging:
         if lights in self.lighting.names:
             self.lighting.choose(lights)
         self._studio = self._make_studio()
+        self._chooses_theme = self.settings.look.background == "auto" and self._shows_theme()
         self.show_grid(self.settings.grid)
 
     def _light(self) -> Lighting | OnlyLight:
@@ -113,20 +133,27 @@ class Staging:
         if settings.light_position is not None:
             position = from_file(viewed, settings.light_position)
             return placed_light(self.scene, position, viewed.bounds, intensity)
-        intensity = 1.0 if intensity is None else intensity
+        look, intensity = settings.look, 1.0 if intensity is None else intensity
         if settings.light_direction is not None:
             strength = intensity * WHITE_INTENSITY
             light = DirectionalLight(settings.light_direction, intensity=strength)
             return OnlyLight(self.scene, light)
-        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity)
+        first = look.lights or (NO_LIGHTS if self._adds_nothing() else "headlight")
+        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity * look.light_intensity, first)
+
+    def _adds_nothing(self) -> bool:
+        """Return whether a scene without lights is lit by the renderer itself."""
+        settings = self.settings
+        is_usual = settings.light_intensity is None and settings.look.light_intensity == 1.0
+        return is_usual and settings.shadow is None
 
     def _make_studio(self) -> Studio | None:
         """Return the studio of the model; None if the scene or the user's look has none."""
-        if self.settings.look != "studio" or not self.viewed.themed:
+        look = self.settings.look
+        if not self.viewed.themed or (look.lights is None and not look.ground):
             return None
         lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
-        is_lit = lights and self.scene.environment is None
-        self._chooses_theme = self._shows_theme()
+        is_lit = lights and look.lights is not None and self.scene.environment is None
         return Studio(self.scene, UP_DIRECTIONS[self.up], is_lit, self.viewed.focus)
 
     def _shows_theme(self) -> bool:
@@ -137,43 +164,51 @@ class Staging:
 
     def follow(
         self,
-        view: Viewpoint,
+        view: AnyView,
         appearance: Appearance,
         split: bool,
-        draw_alone: Callable[[Viewpoint], np.ndarray],
+        draw_alone: Callable[[AnyView], np.ndarray],
     ) -> None:
         """Update the stage for a frame: its background, shadow and grid.
 
         Parameters
         ----------
-        view : Viewpoint
+        view : Viewpoint or CameraView
         appearance : Appearance
         split : bool
             Whether outputs are shown side by side.
         draw_alone : callable
             Draws a small picture of the model on a transparent background.
         """
-        if self._studio is not None:
-            self._set_studio(self._studio, view, appearance, split, draw_alone)
+        self.choose_theme(view, draw_alone)
+        studio = self._studio
+        if studio is not None and self._has_ground:
+            is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
+            if is_plain and not split and not self._transparent:
+                studio.lay_shadow(self.viewed.bounds, view.azimuth, appearance.cull, view.eye())
+            else:
+                studio.show_shadow(False)
         self.box.follow(view.position(), self.settings.axes_grid and not split)
 
-    def _set_studio(
-        self,
-        studio: Studio,
-        view: Viewpoint,
-        appearance: Appearance,
-        split: bool,
-        draw_alone: Callable[[Viewpoint], np.ndarray],
-    ) -> None:
-        if self._chooses_theme:
-            studio.show_shadow(False)
-            self.alone = None if self.settings.keeps_theme else draw_alone(view)
-            self.theme = self.theme if self.alone is None else theme_for(self.alone)
-        is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
-        if is_plain and not split and not self._transparent:
-            studio.lay_shadow(self.viewed.bounds, view.azimuth, appearance.cull, view.eye())
-        else:
-            studio.show_shadow(False)
+    def choose_theme(self, view: AnyView, draw_alone: Callable[[AnyView], np.ndarray]) -> None:
+        """Choose the theme that the model contrasts with, as seen from a view; only once.
+
+        Parameters
+        ----------
+        view, draw_alone
+            As for `follow`.
+        """
+        if not self._chooses_theme:
+            return
+        if self._studio is not None:
+            self._studio.show_shadow(False)
+        self.alone = None if self.settings.keeps_theme else draw_alone(view)
+        self.theme = self.theme if self.alone is None else theme_for(self.alone)
+
+    @property
+    def _has_ground(self) -> bool:
+        """Whether the model casts a shadow on the ground."""
+        return self._studio is not None and self.settings.look.ground
 
     @property
     def theme(self) -> Theme:
@@ -185,7 +220,7 @@ class Staging:
         self.settings.theme = theme
         self._chooses_theme = False
         if self._shows_theme():
-            self.scene.background = theme.background if self._studio is None else theme.gradient
+            self.scene.background = self._theme_background
             self._lay_fog()
 
     def _lay_fog(self) -> None:
@@ -226,16 +261,16 @@ class Staging:
         """Whether anything is drawn besides the model."""
         return self.shows_grids or (self._studio is not None and self._studio.shows_shadow)
 
-    def reach(self, view: Viewpoint) -> Sphere:
+    def reach(self, view: AnyView) -> Sphere:
         """Return what clip planes must enclose: animated parts, grids and ground included."""
         bounds = self.viewed.bounds
         margin = 1.0 if self.viewed.update is None else 1.6
-        if self.settings.grid or self._studio is not None:
+        if self.settings.grid or self._has_ground:
             margin = max(margin, 3.2)
         if self.settings.axes_grid:
             margin = max(margin, _BOX_REACH)
         radius = bounds.radius * margin
-        if self._studio is not None:
+        if self._has_ground:
             distance = float(linalg.length(view.position() - np.array(bounds.center)))
             radius += BEHIND * (distance + radius)
         return bounds._replace(radius=radius)

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
+from ..base import linalg
 from ..choices import Antialias, Backend, Samples
-from ..model.scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
+from ..model.scene.cameras import Camera, PerspectiveCamera
 from ..model.spatial.rays import RayHit
 from ..rendering.canvas import Canvas
 from ..rendering.frame import Frame, Output
+from ..rendering.framing import lens_for
 from ..rendering.options import size_in_picture
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
@@ -39,15 +41,14 @@ from .scene_bounds import turning_outline
 from .stage_settings import Settings
 from .staging import Staging
 from .viewed_scene import ViewedScene
+from .views.camera_view import AnyView, CameraView
 from .views.free_region import NOTHING, Taken
-from .views.viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
+from .views.viewpoint import UP_DIRECTIONS, WALKING_YFOV, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-#: The options of the look "studio", unless the scene or the user overrides them.
-STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
 #: Radius of ambient occlusion, in radii of the scene.
 _OCCLUSION_REACH = 0.2
 #: Factor on the viewing distance that makes room for numbers around the scene.
@@ -79,6 +80,8 @@ class ViewRenderer:
         Whether pixels that show no surface get alpha 0.
     report : callable, optional
         Called with each frame.
+    renderer : Renderer, optional
+        Draws the frames; it is not closed. By default renderers of its own do.
     **options
         Other options of `Renderer`.
 
@@ -111,8 +114,10 @@ class ViewRenderer:
         samples: Samples = 1,
         transparent: bool = False,
         report: Callable[[Frame], object] | None = None,
+        renderer: Renderer | None = None,
         **options: Unpack[_Options],
     ) -> None:
+        self._lent = renderer
         self._transparent = transparent
         self._report = report
         self._options: _Options = options
@@ -130,6 +135,8 @@ class ViewRenderer:
     @property
     def renderer(self) -> Renderer:
         """The renderer for the current number of samples per pixel."""
+        if self._lent is not None:
+            return self._lent
         if self.samples not in self._renderers:
             renderer = Renderer(*self.size, samples=self.samples, **self._options)
             self._renderers[self.samples] = renderer
@@ -148,7 +155,7 @@ class ViewRenderer:
         settings = self.settings
         lights = self.lighting.name if keep_appearance else ""
         if not keep_appearance:
-            look = STUDIO if settings.look == "studio" and viewed.themed else {}
+            look = settings.look.options if viewed.themed else {}
             self.appearance = Appearance(**(look | viewed.appearance | settings.appearance))
         self._blanks = BlankWatch()
         self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
@@ -195,7 +202,7 @@ class ViewRenderer:
         """The theme: colours of texts over the picture, and of the model's background."""
         return self.staging.theme
 
-    def _picture_alone(self, view: Viewpoint) -> np.ndarray:
+    def _picture_alone(self, view: AnyView) -> np.ndarray:
         """Return a small picture of the model on a transparent background."""
         scene = self.staging.scene
         background, scene.background = scene.background, None
@@ -223,8 +230,14 @@ class ViewRenderer:
         """Width over height of the frames."""
         return self.size[0] / self.size[1]
 
-    def view(self, yfov: float = DEFAULT_YFOV) -> Viewpoint:
-        """Return the first view of the scene, with a vertical field of view in radians."""
+    def view(self, yfov: float | None = None) -> Viewpoint:
+        """Return the first view of the scene, with a vertical field of view in radians.
+
+        By default the longer side has 38 degrees; scenes to walk in have a wider view.
+        """
+        if yfov is None:
+            walks = self.viewed.walker is not None
+            yfov = WALKING_YFOV if walks else lens_for(self.aspect)
         viewed, up = self.viewed, UP_DIRECTIONS[self.staging.up]
         view = Viewpoint(np.zeros(3), 1.0, viewed.azimuth, viewed.elevation, up, yfov)
         self.frame(view)
@@ -256,11 +269,29 @@ class ViewRenderer:
 
         return place_bar(*self.size, bar, self._text_scale(*self.size)).taken(*self.size)
 
+    def choose_theme(self, view: Viewpoint) -> None:
+        """Choose the theme that the model contrasts with as seen from a view, if none is chosen."""
+        self.lighting.follow(view.pose())
+        self.staging.choose_theme(view, self._picture_alone)
+
     def draw(
-        self, view: Viewpoint, time: float = 0.0, outputs: Iterable[Output] = ("color",)
+        self,
+        view: AnyView,
+        time: float = 0.0,
+        outputs: Iterable[Output] = ("color",),
+        **passed: Any,
     ) -> Frame:
-        """Return the frame at ``time`` (seconds) as seen from ``view``."""
-        frame = self._render(view, time, outputs)
+        """Return the frame at ``time`` (seconds) as seen from ``view``.
+
+        Parameters
+        ----------
+        view : Viewpoint or CameraView
+        time : float
+        outputs : iterable of str
+        **passed
+            Other keyword arguments of `Renderer.render`: ``out``, ``culling_camera``.
+        """
+        frame = self._render(view, time, outputs, **passed)
         if self.culling.drawing is not None:
             lines = self.culling.lines(self.viewed.scene, self.size)
             draw_lines(frame, lines, self.text_scale(frame))
@@ -283,7 +314,9 @@ class ViewRenderer:
         self.visibility.tell_whole_face(frame, x, y)
         return self.viewed.scene.pick(frame, x, y)
 
-    def _render(self, view: Viewpoint, time: float, outputs: Iterable[Output]) -> Frame:
+    def _render(
+        self, view: AnyView, time: float, outputs: Iterable[Output], **passed: Any
+    ) -> Frame:
         if self.viewed.update is not None:
             self.viewed.update(time)
         pose = view.pose()
@@ -301,8 +334,8 @@ class ViewRenderer:
         frame = self.renderer.render(
             self.staging.scene,
             (camera, pose),
-            culling_camera=self.culling.camera,
             outputs=tuple(dict.fromkeys(outputs)),
+            **{"culling_camera": self.culling.camera, **passed},
             **self._appearance(),
         )
         if mode in OUTPUT_MODES and not self.split and "color" in outputs:
@@ -340,7 +373,9 @@ class ViewRenderer:
             else size_in_picture(pixels, self.size[1])
         )
 
-    def _camera(self, view: Viewpoint) -> PerspectiveCamera | OrthographicCamera:
+    def _camera(self, view: AnyView) -> Camera:
+        if isinstance(view, CameraView):
+            return self._reaching_camera(view)
         clearance = self.viewed.clearance
         free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
         camera = view.camera(self.staging.reach(view), self.viewed.nearest, free)
@@ -348,6 +383,17 @@ class ViewRenderer:
         if isinstance(camera, PerspectiveCamera) and self.settings.far is None:
             camera.reversed_depth = True
         return camera
+
+    def _reaching_camera(self, view: CameraView) -> Camera:
+        """Return a program's camera, which shows the ground if it shows the whole model."""
+        if not self.staging.shows_more:
+            return view.camera
+        ahead, reach = -view.pose()[:3, 2], self.staging.reach(view)
+        eye = float(linalg.dot(view.position(), ahead))
+        needed = float(linalg.dot(np.array(reach.center), ahead)) - eye + reach.radius
+        if self._support is None:
+            return view.camera_reaching(needed - reach.radius + self.bounds.radius, needed)
+        return view.camera_reaching(float(self._support(ahead[np.newaxis])[0]) - eye, needed)
 
     def freeze_culling(self, view: Viewpoint | None) -> None:
         """Freeze culling at a view's camera; None culls for each frame's camera again.

@@ -20,6 +20,7 @@ from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
 from ..rendering.frame import Frame
+from .painting import painted
 
 DRAWABLE = (Mesh, InstancedMesh)
 Drawable: TypeAlias = Mesh | InstancedMesh
@@ -37,27 +38,33 @@ class Entry(NamedTuple):
 
 
 class Visibility:
-    """Hides parts of a scene in its staged scene.
+    """Hides parts of a scene in its staged scene, and paints the others.
 
     Parameters
     ----------
     staged : StagedScene
     shown_as : callable, optional
         Returns what is drawn for a `Mesh` or `InstancedMesh`, with its faces in the same order.
+    paint : Material, optional
+        The scene is drawn in this material instead of its own.
     """
 
     def __init__(
-        self, staged: StagedScene, shown_as: Callable[[Any], Drawable] | None = None
+        self,
+        staged: StagedScene,
+        shown_as: Callable[[Any], Drawable] | None = None,
+        paint: Material | None = None,
     ) -> None:
         self._staged = staged
         self._shown_as = shown_as
+        self._paint = paint
         nodes = staged.scene.nodes
         self._nodes = [node for node in nodes if isinstance(node.object, DRAWABLE)]
         used = [material for mesh in self._meshes() for material in mesh.materials]
         self._materials = list(dict.fromkeys(map(_key, used)))
         self._hidden_nodes: set[Node] = set()
         self._hidden_materials: set[MaterialKey] = set()
-        if shown_as is not None:
+        if shown_as is not None or paint is not None:
             self._apply()
 
     def _meshes(self) -> Iterator[Mesh]:
@@ -113,8 +120,13 @@ class Visibility:
             frame.face_id[y, x] = np.flatnonzero(kept)[face]
 
     def _apply(self) -> None:
-        part_of = self._visible_part if self._hidden_materials else self._shown_as
-        self._staged.hide(self._hidden_nodes, part_of)
+        changes = self._hidden_materials or self._shown_as or self._paint
+        self._staged.hide(self._hidden_nodes, self._drawn_part if changes else None)
+
+    def _drawn_part(self, thing: Drawable) -> Drawable:
+        """Return what is drawn of a mesh, or of instances of one."""
+        part = self._visible_part(thing)
+        return part if self._paint is None else painted(part, self._paint)
 
     def _kept(self, mesh: Mesh) -> np.ndarray:
         """Return which faces of a mesh have visible materials."""

@@ -180,7 +180,7 @@ def test_tasks_are_known_by_all_that_they_say():
         Task(name="a", model="a.obj", folder="/a", **{key: value})
         for key, value in (
             *(("seed", 1), ("size", (3, 4)), ("camera", 0), ("render", {"cull": "none"})),
-            *(("scene", {"exposure": 1}), ("samples", 1), ("antialiasing", "msaa"), ("index", 2)),
+            *(("scene", {"exposure": 1}), ("samples", 1), ("antialiasing", "ssaa"), ("index", 2)),
             ("look", "plain"),
             *(("script", "b.py"), ("arguments", {"a": 1}), ("function", "f"), ("inputs", ["x"])),
         )

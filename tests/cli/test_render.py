@@ -82,7 +82,7 @@ def test_appearance_options_change_the_picture(model, tmp_path):
         ["--grid"],
         ["--axis"],
         ["--metadata"],
-        ["--samples", "4"],
+        ["--samples", "1"],
         ["--up", "-Z"],
         ["--camera-position", "-1,2,3"],
         ["--camera-focal-point", "1,1,0"],
@@ -158,14 +158,17 @@ def test_a_texture_is_asked_for_or_found_beside_the_model(model, tmp_path):
     assert draw() == [10, 30, 200]
 
 
-def test_a_texture_or_a_colour_that_nothing_takes_is_warned_of(model, tmp_path, capsys):
+def test_a_texture_may_be_refused_and_a_colour_replaces_all(model, tmp_path, capsys):
     (tmp_path / "square.mtl").write_text("newmtl blue\nKd 0 0 1\n")
     model.write_text("mtllib square.mtl\nusemtl blue\n" + OBJ)
     Image.new("RGB", (4, 4), (200, 30, 10)).save(tmp_path / "red.png")
-    for option in (("--texture", "red.png"), ("--color", "red")):
-        assert main(["render", str(model), *SMALL, "--unlit", *option, "-o", "out.png"]) == 0
-        assert "materials of its own" in capsys.readouterr().err
-        assert pixels("out.png")[16, 24, :3].tolist() == [0, 0, 255]
+    draw = ["render", str(model), *SMALL, "--unlit", "-o", "out.png"]
+    assert main([*draw, "--texture", "red.png"]) == 0
+    assert "materials of its own" in capsys.readouterr().err
+    assert pixels("out.png")[16, 24, :3].tolist() == [0, 0, 255]
+    assert main([*draw, "--color", "red"]) == 0
+    assert not capsys.readouterr().err
+    assert pixels("out.png")[16, 24, :3].tolist() == [255, 0, 0]
 
 
 def test_a_reference_decides_the_exit_status(model, tmp_path, capsys):

@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d.rendering.draw_list import native_handles as _native_handles
@@ -64,7 +65,7 @@ def test_it_is_prepared_once():
     assert _native_handles.native_environment(environment, 2) is native
     scene = e3d.Scene(environment)
     for _ in range(2):
-        e3d.render(scene, size=(8, 8))
+        render(scene, size=(8, 8))
     assert _native_handles.native_environment(environment, 1) is native
 
 
@@ -104,7 +105,7 @@ def test_a_change_shows_in_the_next_frame():
     scene = e3d.Scene(e3d.Environment(pixels))
     camera = e3d.PerspectiveCamera(), np.eye(4)
     seen = set()
-    with e3d.Renderer(32, 16) as renderer:
+    with Renderer(32, 16) as renderer:
         for name, value in (
             ("environment_rotation", 1.0),
             ("environment_intensity", 0.5),

@@ -9,6 +9,7 @@ import itertools
 import numpy as np
 import pytest
 from exactness.test_surfaces import CAMERA, CORNERS, TOWARDS_VIEWER, UVS
+from plain_picture import render
 
 import engine3d as e3d
 
@@ -38,7 +39,7 @@ def draw(things, backend="scalar", size=(8, 8), background=BACKGROUND, threads=2
         scene.add(thing)
     samples = options.pop("samples", 1)
     settings = {"backend": backend, "threads": threads, "color_space": "linear", "samples": samples}
-    return e3d.render(scene, CAMERA, size=size, **settings, **{"mode": "unlit", **options})
+    return render(scene, CAMERA, size=size, **settings, **{"mode": "unlit", **options})
 
 
 def over(layers, background=BACKGROUND):

@@ -7,6 +7,7 @@ triangle of the scene, from 1e-5 units above its surface: R100 tells that withou
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 
@@ -123,7 +124,7 @@ def picture(make, kind, shadow, backend="auto", threads=2, **options):
     scene, pose = make(kind, shadow)
     camera = (e3d.PerspectiveCamera(), pose)
     outputs = ("color", "world_position", "face_id")
-    return e3d.render(
+    return render(
         scene, camera, size=SIZE, backend=backend, threads=threads, outputs=outputs, **options
     )
 
@@ -168,7 +169,7 @@ def test_flat_and_convex_surfaces_are_never_in_their_own_shadow(kind):
                 lamp = e3d.PointLight(intensity=10 * np.pi * scale * scale, shadow=shadow)
                 scene.add(lamp, translation=offset + to)
             eye = e3d.look_at(offset + scale * np.array((2.0, 2.4, 3.0)), offset)
-            pictures.append(e3d.render(scene, (e3d.PerspectiveCamera(), eye), size=SIZE).color)
+            pictures.append(render(scene, (e3d.PerspectiveCamera(), eye), size=SIZE).color)
         np.testing.assert_array_equal(*pictures)
 
 
@@ -188,7 +189,7 @@ def test_shadows_begin_where_things_touch():
                 (0, 5, 0), (0, 0, 0), up=(0, 0, -1)
             )
             camera = e3d.OrthographicCamera(0.4), pose
-            frame = e3d.render(scene, camera, size=(8, 400))
+            frame = render(scene, camera, size=(8, 400))
             rows.append(frame.color[:, 4, 0].astype(int))
         hidden = rows[1] < rows[0]
         # From the top: floor in shadow, then the wall's top.
@@ -201,7 +202,7 @@ def test_shadows_begin_where_things_touch():
 
 def count_hidden(scene, size=(64, 64), **options):
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
-    frame = e3d.render(scene, camera, size=size, **options)
+    frame = render(scene, camera, size=size, **options)
     return int((frame.color[..., 0] == 0).sum())
 
 
@@ -262,12 +263,12 @@ def test_casters_that_move_are_found_again():
     scene = floor_and_caster(white(e3d.box(1.0)))
     box = list(scene.nodes)[1]
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
-    with e3d.Renderer(64, 64) as renderer:
+    with Renderer(64, 64) as renderer:
         frames = []
         for x in (0.0, 0.5, 0.5, 40.0):
             box.translation = (x, 6, 0)
             frames.append(renderer.render(scene, camera).color.copy())
-            fresh = e3d.render(scene, camera, size=(64, 64)).color
+            fresh = render(scene, camera, size=(64, 64)).color
             np.testing.assert_array_equal(frames[-1], fresh)
     assert (frames[0] != frames[1]).any()
     assert frames[3].min() > 0
@@ -277,7 +278,7 @@ def test_casters_whose_mesh_or_material_changes_are_found_again():
     mesh = white(e3d.box(1.0))
     scene = floor_and_caster(mesh)
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
-    with e3d.Renderer(64, 64) as renderer:
+    with Renderer(64, 64) as renderer:
         counts = []
         for change in ("none", "mesh", "material"):
             if change == "mesh":
@@ -286,7 +287,7 @@ def test_casters_whose_mesh_or_material_changes_are_found_again():
                 mesh.materials[0].alpha_mode = "blend"
                 mesh.materials[0].color = (1, 1, 1, 0.2)
             color = renderer.render(scene, camera).color
-            np.testing.assert_array_equal(color, e3d.render(scene, camera, size=(64, 64)).color)
+            np.testing.assert_array_equal(color, render(scene, camera, size=(64, 64)).color)
             counts.append(int((color[..., 0] == 0).sum()))
     assert counts[1] > counts[0] > 100 > counts[2] == 0
 
@@ -307,8 +308,7 @@ def test_lights_with_maps_and_exact_ones_side_by_side():
     scene.add(e3d.DirectionalLight((-0.4, -1, 0), color=(0, 0, 1), shadow="exact"))
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
     pictures = [
-        e3d.render(scene, camera, size=(64, 64), backend=backend).color
-        for backend in e3d.backends()
+        render(scene, camera, size=(64, 64), backend=backend).color for backend in e3d.backends()
     ]
     for other in pictures[1:]:
         np.testing.assert_array_equal(pictures[0], other)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.linalg import rotation_z
@@ -27,7 +28,7 @@ def floor(**sampling):
 def draw(scene, roll, scale=1, samples=1, backend="auto"):
     pose = e3d.look_at((0, 2.2, 30), (4, 0, 8)) @ rotation_z(roll)
     size = SIZE[0] * scale, SIZE[1] * scale
-    frame = e3d.render(
+    frame = render(
         scene,
         (CAMERA, pose),
         size=size,
@@ -92,7 +93,7 @@ SIDE = 128
 def shown(mesh, **options):
     scene = e3d.Scene(background=(0, 0, 0))
     scene.add(mesh)
-    frame = e3d.render(scene, VIEW, size=(SIDE, SIDE), mode="unlit", **options)
+    frame = render(scene, VIEW, size=(SIDE, SIDE), mode="unlit", **options)
     return frame.color[..., 0] > 127
 
 
@@ -147,7 +148,7 @@ def test_sizes_in_shares_of_the_picture_look_alike(shapes):
     options = dict(zip(("line_shape", "point_shape"), shapes, strict=True))
     options |= {"line_width": 20.0, "point_size": 60.0, "size_unit": "picture", "mode": "unlit"}
     shares = [
-        (e3d.render(scene, VIEW, size=(side, side), **options).color[..., 0] > 127).mean()
+        (render(scene, VIEW, size=(side, side), **options).color[..., 0] > 127).mean()
         for side in (200, 1000)
     ]
     assert shares[0] == pytest.approx(shares[1], rel=0.04)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from images.objects import clip_camera
 from images.scenes import SCENES
+from plain_picture import Renderer
 
 import engine3d as e3d
 
@@ -68,7 +69,7 @@ def draw(corners, samples, backend, colors=None, **options):
     )
     scene = e3d.Scene(background=(0, 0, 0))
     scene.add(mesh)
-    with e3d.Renderer(
+    with Renderer(
         *SIZE, backend=backend, color_space="linear", samples=samples, antialiasing="msaa"
     ) as renderer:
         return renderer.render(scene, clip_camera(), mode="unlit", **options).color
@@ -129,7 +130,7 @@ def test_no_colour_is_extrapolated(backend):
         )
         scene = e3d.Scene(background=(0, 0, 0))
         scene.add(mesh)
-        with e3d.Renderer(
+        with Renderer(
             *SIZE, backend=backend, color_space="linear", samples=8, antialiasing="msaa"
         ) as renderer:
             color = renderer.render(scene, clip_camera(), mode="unlit").color
@@ -169,7 +170,7 @@ def test_alpha_to_coverage_covers_half_at_the_cutoff(backend):
             color=(1.0, 1.0, 1.0, alpha), alpha_mode="mask", alpha_cutoff=0.4, two_sided=True
         )
         scene.add(e3d.Mesh(points, [[0, 1, 2]], materials=[material]))
-        with e3d.Renderer(
+        with Renderer(
             *SIZE, backend=backend, color_space="linear", samples=4, antialiasing="msaa"
         ) as r:
             smooth = r.render(scene, clip_camera(), mode="unlit", alpha_to_coverage=True).color
@@ -197,7 +198,7 @@ def test_what_hides_a_part_of_a_pixel_does_not_move_the_alpha_of_what_is_behind(
         scene.add(e3d.Mesh(points, faces, uvs=4 * points[:, :2], materials=[material]))
     pictures = []
     for backend in ("scalar", *e3d.backends()):
-        with e3d.Renderer(64, 64, backend=backend, samples=16, antialiasing="msaa") as renderer:
+        with Renderer(64, 64, backend=backend, samples=16, antialiasing="msaa") as renderer:
             frame = renderer.render(scene, clip_camera(), alpha_to_coverage=to_coverage)
             pictures.append(frame.color)
     assert all(np.array_equal(pictures[0], other) for other in pictures[1:])
@@ -205,10 +206,10 @@ def test_what_hides_a_part_of_a_pixel_does_not_move_the_alpha_of_what_is_behind(
 
 def test_numbers_of_samples_that_methods_lack():
     with pytest.raises(e3d.InvalidArgumentError, match="samples"):
-        e3d.Renderer(8, 8, samples=8)
+        Renderer(8, 8, samples=8)
     with pytest.raises(e3d.InvalidArgumentError, match="antialiasing"):
-        e3d.Renderer(8, 8, antialiasing="fxaa")
-    assert e3d.Renderer(8, 8, samples=8, antialiasing="msaa").antialiasing == "msaa"
+        Renderer(8, 8, antialiasing="fxaa")
+    assert Renderer(8, 8, samples=8, antialiasing="msaa").antialiasing == "msaa"
 
 
 def crowd():
@@ -228,10 +229,10 @@ def crowd():
 @pytest.mark.parametrize("samples", [2, 4, 16])
 def test_what_is_left_out_and_when_changes_nothing(samples, backend):
     scene, size = crowd(), (150, 106)
-    with e3d.Renderer(*size, backend="scalar", samples=samples, antialiasing="msaa") as renderer:
+    with Renderer(*size, backend="scalar", samples=samples, antialiasing="msaa") as renderer:
         expected = renderer.render(scene).color.copy()
     for threads in (1, 2, 3):
-        with e3d.Renderer(
+        with Renderer(
             *size, backend=backend, threads=threads, samples=samples, antialiasing="msaa"
         ) as renderer:
             for culling in ("all", "always", "always", "tree", "frustum", "none"):

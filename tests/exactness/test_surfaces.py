@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 
@@ -41,7 +42,7 @@ def draw(things, size, backend, *, scene=None, color_space="srgb", samples=1, **
         scene.add(thing)
     options = {"mode": "unlit", **options}
     settings = {"backend": backend, "color_space": color_space, "samples": samples}
-    return e3d.render(scene, CAMERA, size=size, **settings, **options)
+    return render(scene, CAMERA, size=size, **settings, **options)
 
 
 def srgb_decode(code):
@@ -97,7 +98,7 @@ def test_encode_is_the_nearest_srgb_code(backend):
 @pytest.mark.parametrize("color_space", ["srgb", "linear"])
 def test_eight_bit_colors_come_back(backend, color_space):
     """Encode undoes decode for backgrounds and vertex colours of every code."""
-    renderer = e3d.Renderer(1, 1, backend=backend, threads=1, color_space=color_space)
+    renderer = Renderer(1, 1, backend=backend, threads=1, color_space=color_space)
     for code in range(2, 256):
         color = np.array([code, 255 - code, 77, 255], np.uint8)
         scene = e3d.Scene(background=tuple(int(c) for c in color[:3]))
@@ -174,9 +175,7 @@ def test_uv_is_perspective_correct(backend):
     scene = e3d.Scene()
     scene.add(floor)
     outputs = ("uv", "depth", "face_id", "world_position")
-    frame = e3d.render(
-        scene, (camera, np.eye(4)), size=(size, size), backend=backend, outputs=outputs
-    )
+    frame = render(scene, (camera, np.eye(4)), size=(size, size), backend=backend, outputs=outputs)
     rows, columns = np.nonzero(frame.face_id >= 0)
     assert len(rows) > size * size / 3
     distance = focal / (rows + 0.5 - size / 2)  # to the floor, 1 below the eye

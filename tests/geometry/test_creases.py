@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
@@ -160,14 +161,14 @@ def test_hostile_positions():
 def test_the_picture_has_the_creases():
     mesh = welded(box((1, 1, 1)), crease_angle=CREASE_ANGLE)
     drawn = [
-        e3d.render(_scene(one), size=(64, 64), outputs=("world_normal",))
+        render(_scene(one), size=(64, 64), outputs=("world_normal",))
         for one in (mesh, mesh.with_creases())
     ]
     assert (drawn[0].world_normal == drawn[1].world_normal).all()
     shown = drawn[0].world_normal[drawn[0].world_normal.any(axis=2)]
     assert np.abs(np.abs(shown).max(axis=1) - 1).max() < 1e-6
     mesh.crease_angle = SMOOTH
-    smooth = e3d.render(_scene(mesh), size=(64, 64), outputs=("world_normal",)).world_normal
+    smooth = render(_scene(mesh), size=(64, 64), outputs=("world_normal",)).world_normal
     assert np.abs(smooth[smooth.any(axis=2)]).max(axis=1).min() < 0.8
 
 
@@ -227,7 +228,7 @@ def test_all_formats_alike(tmp_path, extension):
     assert len(smooth.with_creases().positions) == 8
     assert len(e3d.load_scene(path).nodes[0].object.with_creases().positions) == 24
     flat = e3d.load_mesh(path, crease_angle=0)
-    picture = e3d.render(_scene(flat), size=(64, 64), outputs=("world_normal",)).world_normal
+    picture = render(_scene(flat), size=(64, 64), outputs=("world_normal",)).world_normal
     assert np.abs(np.abs(picture[picture.any(axis=2)]).max(axis=1) - 1).max() < 1e-6
 
 

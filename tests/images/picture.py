@@ -8,6 +8,7 @@ import hashlib
 from dataclasses import dataclass, field
 
 import numpy as np
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d.rendering.frame import OUTPUTS
@@ -30,7 +31,7 @@ class Picture:
     options: dict = field(default_factory=dict)
 
     def renderer(self, backend, threads=1):
-        return e3d.Renderer(
+        return Renderer(
             *self.size,
             backend=backend,
             threads=threads,

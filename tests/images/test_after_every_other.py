@@ -13,6 +13,7 @@ import pytest
 from images.golden import load
 from images.picture import digests
 from images.scenes import SCENES
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d.model.scene.lights import LIGHTS
@@ -236,12 +237,12 @@ def test_every_feature_after_every_other(backend, settings, share):
     settings = {"backend": backend, "threads": 1, **settings}
     expected = {}
     for name in names:
-        with e3d.Renderer(*SIZE, **settings) as fresh:
+        with Renderer(*SIZE, **settings) as fresh:
             twice = [draw(fresh, made[name], name) for _ in range(2)]
         assert twice[0] == twice[1], f"{name} is drawn otherwise the second time"
         expected[name] = twice[0]
     walk = every_pair(len(names), rng)
-    with e3d.Renderer(*SIZE, **settings) as kept:
+    with Renderer(*SIZE, **settings) as kept:
         for before, number in itertools.pairwise(walk[: int(share * len(walk))]):
             name = names[number]
             if rng.random() < 0.02:

@@ -4,6 +4,7 @@ import functools
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d import linalg
@@ -37,7 +38,7 @@ def some(background=None):
 def drawn(scene, camera="perspective", backend="scalar", threads=1, **options):
     look = CAMERAS[camera], POSE
     options = {"size": SIZE, "backend": backend, "threads": threads, **options}
-    return e3d.render(scene, look, **options).color
+    return render(scene, look, **options).color
 
 
 CASES = [
@@ -80,7 +81,7 @@ def test_a_frame_in_rounds(samples):
     scene.add(e3d.InstancedMesh(e3d.icosphere(subdivisions=1), poses))
     options = {"samples": samples, "size": (300, 200), "culling": "always"}
     expected = drawn(scene, **options)
-    with e3d.Renderer(300, 200, samples=samples, threads=2) as renderer:
+    with Renderer(300, 200, samples=samples, threads=2) as renderer:
         for _ in range(4):
             frame = renderer.render(scene, (CAMERAS["perspective"], POSE), culling="always")
             assert np.array_equal(frame.color, expected)
@@ -140,8 +141,7 @@ def test_outputs_and_other_modes_show_no_environment():
         assert np.array_equal(drawn(scene, mode=mode), drawn(plain, mode=mode))
     look = CAMERAS["perspective"], POSE
     frames = [
-        e3d.render(s, look, size=SIZE, outputs=("depth", "albedo", "object_id"))
-        for s in (scene, plain)
+        render(s, look, size=SIZE, outputs=("depth", "albedo", "object_id")) for s in (scene, plain)
     ]
     for name in ("depth", "albedo", "object_id"):
         assert np.array_equal(getattr(frames[0], name), getattr(frames[1], name))
@@ -150,7 +150,7 @@ def test_outputs_and_other_modes_show_no_environment():
 def test_the_plan_says_it():
     look = CAMERAS["perspective"], POSE
     plans = [
-        e3d.render(scene, look, size=SIZE, mode=mode).stats["plan"]
+        render(scene, look, size=SIZE, mode=mode).stats["plan"]
         for scene, mode in ((some(), "lit"), (some((0, 0, 0)), "lit"), (some(), "normal"))
     ]
     assert ["backdrop" in plan for plan in plans] == [True, False, False]

@@ -7,6 +7,7 @@ from images.scenes_alpha import pane, seen_through
 from images.scenes_glass import behind_glass
 from images.scenes_tone import lamps
 from kernels.test_encode import expected_bytes
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d._native import rasterizer
@@ -105,8 +106,8 @@ def test_what_glows():
     """Around what is bright it is brighter, elsewhere the same; alpha stays everywhere."""
     scene = lamps(None)
     for options in ({}, {"samples": 4, "tone_mapping": "agx"}):
-        plain = e3d.render(scene, size=(200, 150), outputs=("color", "radiance"), **options)
-        glowing = e3d.render(scene, size=(200, 150), bloom=0.5, **options)
+        plain = render(scene, size=(200, 150), outputs=("color", "radiance"), **options)
+        glowing = render(scene, size=(200, 150), bloom=0.5, **options)
         assert glowing.outputs == ("color",)
         assert np.array_equal(glowing.color, expected(plain.radiance, plain.color, 0.5, True))
         assert (glowing.color >= plain.color).all() and (glowing.color != plain.color).any()
@@ -145,7 +146,7 @@ def test_radiance_of_layers(backend):
         scene, camera = panes(*alphas)
         base = F(LAMP) if alphas[0] == 1 else F(LAMP) * F(alphas[0])
         for samples, antialiasing in ((1, "ssaa"), (4, "ssaa"), (16, "ssaa"), (4, "msaa")):
-            with e3d.Renderer(
+            with Renderer(
                 66, 20, backend=backend, threads=2, samples=samples, antialiasing=antialiasing
             ) as renderer:
                 for outputs in (("radiance",), ("color", "radiance", "depth")):
@@ -161,7 +162,7 @@ def test_radiance_is_what_shows():
             if scene.fog is None and options:
                 scene.fog = e3d.ExponentialFog((90, 60, 30), 0.1)
             outputs = ("color", "radiance")
-            frame = e3d.render(scene, size=(120, 90), outputs=outputs, **options)
+            frame = render(scene, size=(120, 90), outputs=outputs, **options)
             planes = [np.ascontiguousarray(frame.radiance[..., k].ravel()) for k in range(3)]
             shown = expected_bytes(planes, True).view(np.uint8).reshape(90, 120, 4)
             off = np.abs(shown[..., :3].astype(int) - frame.color[..., :3])
@@ -174,8 +175,8 @@ def test_radiance_alone_has_shadows():
     for kind in (True, "exact"):
         scene.add(e3d.DirectionalLight((0.5, -1, -0.2), shadow=kind))
     options = {"size": (100, 80), "ambient_occlusion": True}
-    both = e3d.render(scene, outputs=("color", "radiance"), **options)
-    alone = e3d.render(scene, outputs=("radiance",), **options)
+    both = render(scene, outputs=("color", "radiance"), **options)
+    alone = render(scene, outputs=("radiance",), **options)
     assert np.array_equal(alone.radiance, both.radiance)
 
 
@@ -184,7 +185,7 @@ def test_light_too_bright_to_add_up():
     for node in scene.nodes:
         node.object.materials[0].emissive = e3d.linear(3e38, 3e38, 1.0)
     for backend in e3d.backends():
-        frame = e3d.render(scene, camera, size=(9, 9), outputs=("radiance",), backend=backend)
+        frame = render(scene, camera, size=(9, 9), outputs=("radiance",), backend=backend)
         assert np.isfinite(frame.radiance).all()
 
 
@@ -205,8 +206,7 @@ def test_glass_glows_and_dims():
             scene.add(glass, translation=(0, -0.2, 0.5))
         camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 3), (0, 0, 0))
         plain, shown = (
-            e3d.render(scene, camera, size=(80, 80), bloom=bloom).color.astype(int)
-            for bloom in (0, 1)
+            render(scene, camera, size=(80, 80), bloom=bloom).color.astype(int) for bloom in (0, 1)
         )
         return (shown - plain)[40, 20, 0]  # beside the glass
 
@@ -221,11 +221,11 @@ def test_dark_scenes_and_other_modes_stay():
     dim = e3d.Scene((30, 38, 54))
     dim.add(e3d.box(1))
     for one, options in ((scene, {"mode": "normal"}), (scene, {"mode": "overdraw"}), (dim, {})):
-        plain = e3d.render(one, size=(80, 60), **options)
-        assert np.array_equal(plain.color, e3d.render(one, size=(80, 60), bloom=3, **options).color)
+        plain = render(one, size=(80, 60), **options)
+        assert np.array_equal(plain.color, render(one, size=(80, 60), bloom=3, **options).color)
 
 
 def test_bad_strengths():
     for bloom in (-1, 101, float("nan"), "much"):
         with pytest.raises(e3d.InvalidArgumentError, match="bloom"):
-            e3d.render(e3d.Scene(), size=(8, 8), bloom=bloom)
+            render(e3d.Scene(), size=(8, 8), bloom=bloom)

@@ -10,6 +10,7 @@ import warnings
 
 import numpy as np
 import pytest
+from plain_picture import render
 from shared_corpus import GLTF
 
 import engine3d as e3d
@@ -90,7 +91,7 @@ def drawn(name, size):
     pose = e3d.look_at(camera["eye"], camera["target"], camera["up"])
     lens = e3d.PerspectiveCamera(camera["yfov"], znear=camera["znear"], zfar=camera["zfar"])
     camera = scene.add(lens, pose=pose)
-    frame = e3d.render(scene, camera, size=size, samples=SAMPLES.get(name, 1))
+    frame = render(scene, camera, size=size, samples=SAMPLES.get(name, 1))
     return frame.color[..., :3].astype(np.float32) / 255
 
 
@@ -125,7 +126,7 @@ def test_glass_has_the_colours_of_three():
     camera = json.loads((PICTURES / "AttenuationTest.camera.json").read_text())
     pose = e3d.look_at(camera["eye"], camera["target"], camera["up"])
     lens = e3d.PerspectiveCamera(camera["yfov"], znear=camera["znear"], zfar=camera["zfar"])
-    frame = e3d.render(
+    frame = render(
         scene,
         (lens, pose),
         size=truth.shape[1::-1],

@@ -5,6 +5,7 @@ import pytest
 from images.scenes_tone import HAZE, lamps
 from kernels.test_encode import expected_bytes
 from kernels.test_tone import mapped
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d._native.rasterizer import TONE_MAPPINGS
@@ -22,7 +23,7 @@ def test_colour_is_the_radiance_mapped(name):
         material = getattr(node.object, "materials", [None])[0]
         plain = material is None or (material.alpha_mode == "opaque" and not material.unlit)
         node.visible = plain and len(getattr(node.object, "lines", ())) == 0
-    frame = e3d.render(scene, size=SIZE, outputs=("color", "radiance"), tone_mapping=name)
+    frame = render(scene, size=SIZE, outputs=("color", "radiance"), tone_mapping=name)
     planes = mapped(name, frame.radiance.reshape(-1, 3).T)
     shown = expected_bytes([np.ascontiguousarray(plane) for plane in planes], True)
     assert np.array_equal(frame.color.reshape(-1, 4).view(np.uint32)[:, 0], shown)
@@ -34,7 +35,7 @@ def test_all_fog_is_its_colour(name):
     """Whatever stands in it, lit or not, and whatever the exposure: no seam to the background."""
     scene = lamps(HAZE, e3d.Fog(HAZE, 0.0, 0.001))
     scene.exposure = 2.0
-    frame = e3d.render(scene, size=SIZE, tone_mapping=name, samples=4)
+    frame = render(scene, size=SIZE, tone_mapping=name, samples=4)
     off = np.abs(frame.color[..., :3].astype(int) - HAZE)
     assert off.max() <= 1
 
@@ -51,7 +52,7 @@ def test_fog_by_depth():
         (e3d.ExponentialFog((1.0, 1.0, 1.0), 0.1), lambda d: 1 - np.exp(-((0.1 * d) ** 2))),
     ):
         scene.fog = fog
-        frame = e3d.render(scene, camera, size=SIZE, outputs=outputs)
+        frame = render(scene, camera, size=SIZE, outputs=outputs)
         seen = frame.depth > 0
         expected = share(frame.depth[seen].astype(np.float64))
         assert np.abs(frame.radiance[seen][:, 0] - expected).max() < 1e-5
@@ -68,7 +69,7 @@ def test_gradient():
     expected = np.floor(value[:, None] + (ORDER[y % 8, x % 8][..., None] + 0.5) / 64)
     for samples in (1, 4, 16):
         for mode in ("lit", "unlit", "depth", "overdraw"):
-            frame = e3d.render(scene, size=(width, height), samples=samples, mode=mode)
+            frame = render(scene, size=(width, height), samples=samples, mode=mode)
             off = np.abs(frame.color[..., :3] - expected)
             assert (off > 0).mean() < 1e-3 and off.max() <= 1  # where a rounding decides
             assert (frame.color[..., 3] == 255).all()
@@ -78,14 +79,14 @@ def test_one_colour_has_no_pattern():
     for color in ((0, 77, 255), (128, 128, 128)):
         scene = e3d.Scene(e3d.Gradient(color, color))
         for color_space in ("srgb", "linear"):
-            frame = e3d.render(scene, size=(20, 20), color_space=color_space)
+            frame = render(scene, size=(20, 20), color_space=color_space)
             assert (frame.color[..., :3] == color).all()
 
 
 def test_a_hundred_rows_show_no_bands():
     """Means of 8 x 8 pixels go down as evenly as the colours do, between two codes, too."""
     scene = e3d.Scene(e3d.Gradient((100, 100, 100), (90, 90, 90)))
-    frame = e3d.render(scene, size=(64, 512))
+    frame = render(scene, size=(64, 512))
     means = frame.color[..., 0].reshape(64, 8, 64).mean(axis=(1, 2))
     steps = np.diff(means)
     assert (steps < 0).all() and np.abs(steps + 10 / 64).max() < 0.05
@@ -99,7 +100,7 @@ def test_bad_values():
         lambda: e3d.ExponentialFog((1, 1, 1), -0.1),
         lambda: e3d.Gradient((1, 1, 1), None),
         lambda: e3d.Scene().__setattr__("fog", (1, 1, 1)),
-        lambda: e3d.render(e3d.Scene(), size=(8, 8), tone_mapping="filmic"),
+        lambda: render(e3d.Scene(), size=(8, 8), tone_mapping="filmic"),
     ):
         with pytest.raises(e3d.InvalidArgumentError):
             make()

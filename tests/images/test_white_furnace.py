@@ -6,6 +6,7 @@ renderers lose a quarter to two thirds of the light of some.
 
 import numpy as np
 import pytest
+from plain_picture import render
 from shared_corpus import GLTF
 
 import engine3d as e3d
@@ -36,7 +37,7 @@ def radiance_of(scene):
     camera = scene.add(
         e3d.OrthographicCamera(1.5, znear=0.1, zfar=20), pose=e3d.look_at((0, 0, 10), (0, 0, 0))
     )
-    frame = e3d.render(scene, camera, size=SIZE, color_space="linear")
+    frame = render(scene, camera, size=SIZE, color_space="linear")
     return frame.color[..., :3] / 255 / 2**EXPOSURE
 
 

@@ -40,6 +40,7 @@ import numpy as np
 from loaders.generating import GENERATORS, enlarged, mutated
 from loaders.seeds import FILES
 from PIL import Image
+from plain_picture import render
 from shared_corpus import CONFORMANCE
 
 import engine3d as e3d
@@ -172,7 +173,7 @@ def load(path: Path, draw: bool) -> None:
 def draw_scene(scene) -> None:
     """Draw what was loaded; that no camera can be placed far outside of any range is no finding."""
     with contextlib.suppress(e3d.InvalidArgumentError):
-        frame = e3d.render(scene, size=(16, 16), outputs=("color", "depth"))
+        frame = render(scene, size=(16, 16), outputs=("color", "depth"))
         require(bool(np.isfinite(frame.depth).all()), "depths are not finite")
 
 

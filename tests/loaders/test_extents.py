@@ -4,6 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 
@@ -69,7 +70,7 @@ def test_scenes_keep_the_distance_in_their_nodes(tmp_path, suffix):
 def covered(mesh):
     scene = e3d.Scene()
     scene.add(mesh)
-    return int((e3d.render(scene, size=(320, 240), outputs=("object_id",)).object_id >= 0).sum())
+    return int((render(scene, size=(320, 240), outputs=("object_id",)).object_id >= 0).sum())
 
 
 @pytest.mark.parametrize("scale", [1e-20, 1e-8, 1e-5, 1.0, 1e6, 1e30])

@@ -9,6 +9,7 @@ import weakref
 import numpy as np
 import pytest
 from loaders.test_gltf_corpus import cases, loaded, needs_package
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d.errors import Engine3DError
@@ -55,7 +56,7 @@ def test_a_folder_of_files_is_drawn_and_forgotten():
         pytest.skip("needs the glTF corpus in ../shared (or ENGINE3D_SHARED)")
     assert len(files) >= 100
     after = []
-    with e3d.Renderer(SIZE, SIZE) as renderer:
+    with Renderer(SIZE, SIZE) as renderer:
         for chosen in (files, files[::2], files[::2]):
             held = []
             for case in chosen:

@@ -12,6 +12,7 @@ import pytest
 from loaders.meshopt_reference import pack_attributes, random_triangles
 from loaders.seeds import FILES
 from loaders.test_gltf import add_attribute, add_buffer, as_glb, png, triangle_tree
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.apps.cli.commands.info import describe
@@ -387,7 +388,7 @@ def tangents_of(mesh):
     """What a picture says of them."""
     scene = e3d.Scene()
     scene.add(mesh)
-    return e3d.render(scene, size=(60, 60), outputs=("tangent",), wireframe="overlay").tangent
+    return render(scene, size=(60, 60), outputs=("tangent",), wireframe="overlay").tangent
 
 
 def bumpy_ball():

@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pytest
 from PIL import Image
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d import linear
@@ -237,7 +238,7 @@ def test_a_picture_that_we_drew_is_no_companion(write, tmp_path):
     scene = e3d.Scene()
     scene.add(e3d.box())
     for name in ("model.tga", "model_diffuse.tga"):
-        e3d.render(scene, size=(8, 8)).save(tmp_path / name)
+        render(scene, size=(8, 8)).save(tmp_path / name)
     assert companion_texture(write("model.obj", PLAIN)) is None
 
 

@@ -4,6 +4,7 @@ import json
 
 import pytest
 from loaders.seeds import FILES
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.loaders import load_document
@@ -46,7 +47,7 @@ def test_the_seed_is_whole(folder):
     assert scene.nodes[2].world_pose[0].tolist() == [0.8, 0, 0, 0.4]
     assert scene.nodes[7].object.zfar == float("inf")
     assert scene.nodes[1].object.materials != scene.nodes[5].object.materials
-    assert e3d.render(scene, size=(32, 24)).color.any()
+    assert render(scene, size=(32, 24)).color.any()
 
 
 ARRAYS = ("objects", 3, "arrays")

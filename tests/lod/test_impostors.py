@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
@@ -70,7 +71,7 @@ def test_a_card_looks_like_the_mesh_from_its_direction(impostor, number):
         pose = e3d.look_at(center + 60.0 * direction, center, up)
         camera = e3d.PerspectiveCamera(0.06, znear=1.0, zfar=100.0)
         outputs = ("color", "object_id", "albedo", "normal")
-        frames.append(e3d.render(scene, (camera, pose), size=(64, 64), outputs=outputs))
+        frames.append(render(scene, (camera, pose), size=(64, 64), outputs=outputs))
     mesh, card = frames
     on_mesh, on_card = (frame.object_id >= 0 for frame in frames)
     both = on_mesh & on_card
@@ -141,7 +142,7 @@ def test_ids_stay(impostor):
     outputs = ("object_id", "instance_id", "face_id")
     seen = []
     for _ in range(2):
-        frame = e3d.render(scene, (CAMERA, pose), size=SIZE, outputs=outputs)
+        frame = render(scene, (CAMERA, pose), size=SIZE, outputs=outputs)
         assert set(np.unique(frame.object_id)) == {-1, group.id}
         assert set(np.unique(frame.instance_id)) == {-1, *range(20)}
         seen.append(frame)
@@ -170,7 +171,7 @@ def test_pictures_are_the_same_everywhere(impostor):
             things.update(CAMERA, look(60.0, y=9.0), SIZE)
             assert (things.level == 1).all()
             options = {"backend": backend, "threads": threads, "size": (160, 120)}
-            frame = e3d.render(scene, (CAMERA, look(60.0, y=9.0)), **options)
+            frame = render(scene, (CAMERA, look(60.0, y=9.0)), **options)
             digests.add(hashlib.sha256(frame.color.tobytes()).hexdigest())
     assert len(digests) == 1
     assert (frame.color[..., :3] != 0).any()

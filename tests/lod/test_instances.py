@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
@@ -87,7 +88,7 @@ def test_colors_follow_their_instances_and_the_picture_stays():
     assert len(set(spheres.level)) > 1
     plain = e3d.Scene()
     plain.add(e3d.InstancedMesh(levels()[0][0], poses, colors=colors))
-    frames = [e3d.render(s, view, size=SIZE, outputs=("color",)).color for s in (scene, plain)]
+    frames = [render(s, view, size=SIZE, outputs=("color",)).color for s in (scene, plain)]
     difference = np.abs(frames[0].astype(int) - frames[1].astype(int)).max(axis=2)
     assert (difference > 40).mean() < 0.01
 

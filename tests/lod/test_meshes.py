@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
@@ -73,9 +74,9 @@ def test_ids_and_picking():
     group = balls.add_to(scene)
     outputs = ("object_id", "instance_id", "face_id")
     view = CAMERA, look(30.0)
-    fine = e3d.render(scene, view, size=SIZE, outputs=outputs)
+    fine = render(scene, view, size=SIZE, outputs=outputs)
     assert balls.update(*view, SIZE)
-    coarse = e3d.render(scene, view, size=SIZE, outputs=outputs)
+    coarse = render(scene, view, size=SIZE, outputs=outputs)
     assert len(set(balls.level)) == 3
     assert set(np.unique(coarse.object_id)) == {-1, group.children[0].id}
     assert (fine.object_id == coarse.object_id).mean() > 0.99

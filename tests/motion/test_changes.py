@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from motion.test_posing import bent_tube, by_matrices, skinned_scene
 from motion.test_shown import stage, view, wriggle
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d.linalg import transform_points
@@ -21,7 +22,7 @@ def world_points(scene, node):
 def test_nodes_that_go_and_come_back_are_bent_again():
     rng = np.random.default_rng(1)
     scene, node = skinned_scene(bent_tube(rng), rng)
-    renderer = e3d.Renderer(64, 64)
+    renderer = Renderer(64, 64)
     before = world_points(scene, node)
     scene.remove(node)
     renderer.render(scene)
@@ -49,7 +50,7 @@ def test_slots_that_are_packed_keep_their_joints():
     assert np.array_equal(world_points(scene, node), before)
     joints[1].translation = (3, 0, 0)
     assert np.abs(world_points(scene, node) - by_matrices(mesh, node)).max() < 1e-5
-    e3d.render(scene, size=(16, 16))
+    render(scene, size=(16, 16))
 
 
 def test_nothing_is_kept_of_nodes_that_are_gone():
@@ -83,7 +84,7 @@ def test_what_a_thread_draws_stays_as_it_is_while_another_moves_it():
     for _ in range(4):
         wriggle(joints, rng)
         poses.append(joints.poses)
-    renderer = e3d.Renderer(128, 96, threads=1)
+    renderer = Renderer(128, 96, threads=1)
     expected = set()
     for pose in poses:
         joints.poses = pose
@@ -92,7 +93,7 @@ def test_what_a_thread_draws_stays_as_it_is_while_another_moves_it():
     seen, stop = [], threading.Event()
 
     def draw():
-        own = e3d.Renderer(128, 96, threads=1)
+        own = Renderer(128, 96, threads=1)
         while not stop.is_set():
             seen.append(own.render(scene, view()).color.tobytes())
 
@@ -163,7 +164,7 @@ def in_some_order(rng):
 def test_the_order_in_which_a_mesh_is_made_to_bend_changes_nothing(seed):
     rng = np.random.default_rng(seed)
     scene, mesh, node, joint, camera = flat_scene()
-    skin, renderer = e3d.motion.Skin([joint], np.eye(4)[None]), e3d.Renderer(64, 64)
+    skin, renderer = e3d.motion.Skin([joint], np.eye(4)[None]), Renderer(64, 64)
     for _ in range(12):
         try:
             STEPS[str(rng.choice(list(STEPS)))](mesh, node, skin)
@@ -182,7 +183,7 @@ def test_the_order_in_which_a_mesh_is_made_to_bend_changes_nothing(seed):
     skin = e3d.motion.Skin([joint], np.eye(4)[None])
     for step in END:
         STEPS[step](mesh, node, skin)
-    assert seen == looked_at(fresh, camera, e3d.Renderer(64, 64))
+    assert seen == looked_at(fresh, camera, Renderer(64, 64))
 
 
 def test_meshes_that_are_made_to_bend_after_their_nodes_bend():

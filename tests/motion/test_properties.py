@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from loaders.seeds import FILES
 from loaders.test_gltf import data_uri, png, triangle_tree
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d.io.formats.gltf import gltf_pointers
@@ -287,10 +288,10 @@ def test_a_kept_renderer_draws_what_a_fresh_one_does(tmp_path):
         player.stop()
         return color
 
-    kept, scene = e3d.Renderer(48, 48, threads=1), viewed()
+    kept, scene = Renderer(48, 48, threads=1), viewed()
     pictures = {}
     for time in (0.0, 1.0, 2.0, 0.5, 0.0, 2.0):
         picture = drawn(kept, scene, time)
         assert pictures.setdefault(time, picture) == picture
-        assert drawn(e3d.Renderer(48, 48, threads=1), viewed(), time) == picture
+        assert drawn(Renderer(48, 48, threads=1), viewed(), time) == picture
     assert len(set(pictures.values())) == 4

@@ -5,6 +5,7 @@ Near edges and crossings of surfaces snapping decides, so these pixels are left 
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 
@@ -77,7 +78,7 @@ def test_random_triangles_around_the_eye(backend, seed):
     scene.add(mesh)
     outputs = ("face_id", "depth", "world_position")
     size = (WIDTH, HEIGHT)
-    frame = e3d.render(scene, CAMERA, size=size, cull="none", outputs=outputs, backend=backend)
+    frame = render(scene, CAMERA, size=size, cull="none", outputs=outputs, backend=backend)
     seen = frame.face_id.ravel()
     assert sure.mean() > 0.5 and (expected[sure] >= 0).mean() > 0.3
     assert np.array_equal(seen[sure], expected[sure])
@@ -105,7 +106,7 @@ def test_the_painter_agrees_where_nothing_intersects(backend, seed):
     scene = layered_scene(np.random.default_rng(seed), 60)
     outputs = ("color", "face_id", "depth", "ndc_depth")
     frames = [
-        e3d.render(
+        render(
             scene,
             CAMERA,
             size=(WIDTH, HEIGHT),

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d.model.primitives import box, cylinder, icosphere, torus, uv_sphere
@@ -34,7 +35,7 @@ def picture(renderer, scene, cull, camera=None):
 
 @pytest.fixture
 def renderer():
-    with e3d.Renderer(160, 120) as renderer:
+    with Renderer(160, 120) as renderer:
         yield renderer
 
 
@@ -181,7 +182,7 @@ def test_windows_are_the_same_on_all_backends(options):
     expected = None
     for backend in ("scalar", *(name for name in e3d.backends() if name != "scalar")):
         for culling in ("all", "none"):
-            with e3d.Renderer(150, 90, backend=backend, threads=2, **options) as one:
+            with Renderer(150, 90, backend=backend, threads=2, **options) as one:
                 frame = one.render(scene, (camera, pose), cull="auto", culling=culling)
                 expected = frame.color.copy() if expected is None else expected
                 assert (frame.color == expected).all(), (backend, culling)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d.linalg import inverse, multiply
@@ -48,7 +49,7 @@ def test_in_frustum(backend, culling):
     places = random.uniform(-30, 30, (900, 3))
     scene = boxes(places)
     camera = e3d.PerspectiveCamera(0.8, znear=0.5, zfar=40.0)
-    with e3d.Renderer(*SIZE, backend=backend) as renderer:
+    with Renderer(*SIZE, backend=backend) as renderer:
         for _ in range(8):
             pose = e3d.look_at(random.uniform(-20, 20, 3), random.uniform(-20, 20, 3))
             beyond = outside(places, 1.0, camera, pose)
@@ -73,7 +74,7 @@ def test_unoccluded_and_drawn(threads):
     for place in hidden:
         scene.add(mesh, translation=place)
     camera, pose = e3d.PerspectiveCamera(1.2, znear=0.1, zfar=200.0), np.eye(4)
-    with e3d.Renderer(*SIZE, threads=threads) as renderer:
+    with Renderer(*SIZE, threads=threads) as renderer:
         for _ in range(6):  # until all that was seen at first is tried again
             outputs = ("object_id", "face_id")
             frame = renderer.render(scene, (camera, pose), culling="always", outputs=outputs)
@@ -97,10 +98,10 @@ def test_of_what_faces_away_nothing_is_drawn():
     view = e3d.PerspectiveCamera(0.8), e3d.look_at((0, 0, 5), (0, 0, 0))
     for backend in e3d.backends():
         if backend != "scalar":  # which leaves out nothing
-            stats = e3d.render(scene, view, size=(32, 32), backend=backend).stats
+            stats = render(scene, view, size=(32, 32), backend=backend).stats
             assert counts(stats).tolist() == [[2, 2, 2, 1], [1, 1, 1, 0], [2, 2, 2, 0]]
             assert stats["materials"] == 2
-    stats = e3d.render(scene, view, size=(32, 32), cull="none").stats
+    stats = render(scene, view, size=(32, 32), cull="none").stats
     assert counts(stats)[:, 3].tolist() == [2, 1, 2]
 
 
@@ -115,7 +116,7 @@ def test_clipped_and_two_sided_triangles():
     scene.add(behind, translation=(0, 0, -4), rotation=(0, 1, 0, 0), scale=3)
     view = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=200.0), np.eye(4)
     for options in ({}, {"hidden_surfaces": "painter"}):
-        stats = e3d.render(scene, view, size=(64, 64), **options).stats
+        stats = render(scene, view, size=(64, 64), **options).stats
         assert stats["triangles_clipped"] == 1
         assert counts(stats)[2].tolist() == [5, 5, 5, 3]
 
@@ -136,9 +137,9 @@ def test_no_stage_has_more_than_the_one_before(culling):
     scene = random_scene(random)
     camera = e3d.PerspectiveCamera(0.9, znear=0.1, zfar=60.0)
     with (
-        e3d.Renderer(*SIZE, threads=1) as one,
-        e3d.Renderer(*SIZE, threads=3) as three,
-        e3d.Renderer(*SIZE, backend="scalar") as scalar,
+        Renderer(*SIZE, threads=1) as one,
+        Renderer(*SIZE, threads=3) as three,
+        Renderer(*SIZE, backend="scalar") as scalar,
     ):
         for k in range(5):
             view = camera, e3d.look_at((3 * k - 6, 4, 14), (0, 0, 0))
@@ -166,7 +167,7 @@ def test_edges_alone_count_the_triangles_that_they_are_of(threads):
     random = np.random.default_rng(3)
     scene = boxes(random.uniform(-30, 30, (300, 3)))
     view = e3d.PerspectiveCamera(0.8, znear=0.5, zfar=40.0), np.eye(4)
-    with e3d.Renderer(*SIZE, threads=threads) as renderer:
+    with Renderer(*SIZE, threads=threads) as renderer:
         faces = counts(renderer.render(scene, view, culling="frustum").stats)
         edges = counts(renderer.render(scene, view, wireframe="only", hidden_lines=True).stats)
     assert (edges[1:, :3] == faces[1:, :3]).all() and 0 < edges[2, 1] < edges[2, 0]
@@ -183,7 +184,7 @@ def test_in_frustum_does_not_depend_on_what_is_hidden(threads):
     for place in random.uniform((-14, -9, -14), (14, 9, -6), (60, 3)):
         scene.add(mesh, translation=place)
     camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=40.0)
-    with e3d.Renderer(*SIZE, threads=threads) as renderer:
+    with Renderer(*SIZE, threads=threads) as renderer:
         for k in range(6):
             view = camera, e3d.look_at((0.1 * k, 0, 0), (0, 0, -10))
             expected = counts(renderer.render(scene, view, culling_camera=view).stats)[:, 1]

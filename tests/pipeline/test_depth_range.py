@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d import linalg
@@ -30,9 +31,7 @@ def marks(height):
 
 
 def torn(scene, camera, truth):
-    pictures = [
-        e3d.render(scene, one, size=(320, 240), mode="unlit").color for one in (camera, truth)
-    ]
+    pictures = [render(scene, one, size=(320, 240), mode="unlit").color for one in (camera, truth)]
     return (pictures[0] != pictures[1]).any(axis=2).mean()
 
 
@@ -50,7 +49,7 @@ def test_reversed_depth_on_every_backend(backend):
     scene = marks(1.0)
     camera = camera_at(30, 20, 90, znear=0.1, zfar=500.0, reversed_depth=True)
     frames = [
-        e3d.render(scene, camera, size=(160, 120), backend=one, outputs=("color", "ndc_depth"))
+        render(scene, camera, size=(160, 120), backend=one, outputs=("color", "ndc_depth"))
         for one in ("scalar", backend)
     ]
     assert (frames[0].color == frames[1].color).all()
@@ -73,7 +72,7 @@ def test_what_sees_the_far_plane_sees_it_there():
         camera_at(1, 1, 3, znear=0.1, zfar=100.0, reversed_depth=flag) for flag in (False, True)
     )
     outputs = ("color", "depth", "object_id", "instance_id", "face_id")
-    with e3d.Renderer(96, 64) as renderer:
+    with Renderer(96, 64) as renderer:
         frames = [renderer.render(scene, one, outputs=outputs) for one in (usual, turned)]
         assert np.abs(frames[0].color.astype(int) - frames[1].color).max() <= 1
         y, x = np.argwhere(frames[0].object_id >= 0)[5].tolist()
@@ -94,7 +93,7 @@ def test_reversed_depth_is_saved(tmp_path):
 def coverage(scale):
     scene = e3d.Scene()
     scene.add(icosphere(1.0, 3), scale=scale)
-    return e3d.render(scene, size=(160, 120), outputs=("face_id", "color"))
+    return render(scene, size=(160, 120), outputs=("face_id", "color"))
 
 
 @pytest.mark.parametrize("scale", [2.0**-18, 2.0**-27, 2.0**-60, 2.0**-90])
@@ -153,7 +152,7 @@ def test_models_of_maps(tmp_path, kind, recwarn):
     assert (np.abs(far.nodes[0].object.positions) < 2).all()
     pictures = []
     for scene in (near, far):
-        frame = e3d.render(scene, size=(160, 120), outputs=("face_id",))
+        frame = render(scene, size=(160, 120), outputs=("face_id",))
         pictures.append(frame.face_id)
     assert (pictures[0] != pictures[1]).mean() < 2e-3
     # One mesh is in the file's coordinates, as coarse as they are.

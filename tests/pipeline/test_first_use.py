@@ -5,6 +5,7 @@ import threading
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d.model.geometry import normals
@@ -48,7 +49,7 @@ def same(one, other):
 
 
 def draw(scene, **options):
-    frame = e3d.render(scene, size=SIZE, threads=1, outputs=("color", "object_id"), **options)
+    frame = render(scene, size=SIZE, threads=1, outputs=("color", "object_id"), **options)
     return frame.color, frame.object_id
 
 
@@ -115,7 +116,7 @@ def test_threads_that_ask_different_things_at_once():
 
 def test_kept_renderers_after_a_change():
     """Several renderers, a thread each, of a scene that changes between their frames."""
-    renderers = [e3d.Renderer(*SIZE, threads=1) for _ in range(THREADS)]
+    renderers = [Renderer(*SIZE, threads=1) for _ in range(THREADS)]
     scene = fresh_scene()
     for step in range(20):
         crowd, mesh = scene.find("crowd").object, scene.nodes[0].object
@@ -123,7 +124,7 @@ def test_kept_renderers_after_a_change():
         mesh.positions = mesh.positions * np.float32(1.01)
         scene.find("ball").object.materials[0].color = (1, 0.05 * step, 0)
         answers = ask_at_once([lambda r=r: r.render(scene).color.copy() for r in renderers])
-        expected = e3d.render(scene, size=SIZE, threads=1).color
+        expected = render(scene, size=SIZE, threads=1).color
         for answer in answers:
             assert not isinstance(answer, Exception), repr(answer)
             assert np.array_equal(answer, expected), step
@@ -170,7 +171,7 @@ def test_arrays_that_grow_and_shrink_while_others_draw():
 
     def look():
         while not done.is_set():
-            e3d.render(scene, size=(16, 16), threads=1)
+            render(scene, size=(16, 16), threads=1)
             scene.raycast_many(ORIGINS, DOWN)
 
     def change():

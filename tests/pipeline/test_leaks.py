@@ -10,6 +10,7 @@ import weakref
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d.rendering.draw_list import native_handles as native_handles
@@ -63,7 +64,7 @@ def live_once(number, threads=1):
     if number % 3 == 0:
         scene.add(e3d.InstancedMesh(mesh, [[1, 0, 0, 0.5], [-1, 0, 0, 0.5]]))
         scene.add(e3d.PointLight(), translation=(1, 1, 1))
-    with e3d.Renderer(9, 7, threads=threads, samples=4 if number % 5 == 0 else 1) as renderer:
+    with Renderer(9, 7, threads=threads, samples=4 if number % 5 == 0 else 1) as renderer:
         frame = renderer.render(scene, (CAMERA, POSE), **OPTIONS[number % len(OPTIONS)])
     return frame
 
@@ -111,7 +112,7 @@ def test_renderers_that_die_in_threads_leave_nothing():
 
     def live(rounds):
         for _ in range(rounds):
-            renderers = [e3d.Renderer(9, 7, threads=2) for _ in range(4)]
+            renderers = [Renderer(9, 7, threads=2) for _ in range(4)]
             threads = [threading.Thread(target=live_in_a_thread, args=(r,)) for r in renderers]
             del renderers
             for thread in threads:
@@ -125,7 +126,7 @@ def test_renderers_that_die_in_threads_leave_nothing():
 
 def test_a_renderer_that_changes_forever_keeps_nothing():
     """One renderer, one scene: sizes, scenes' contents and arrays that come and go."""
-    renderer = e3d.Renderer(9, 7, threads=1)
+    renderer = Renderer(9, 7, threads=1)
     scene = e3d.Scene()
 
     def live(rounds):
@@ -175,7 +176,7 @@ def test_what_is_replaced_each_frame_is_let_go(replace):
             scene.raycast((0, 0, 5), (0, 0, -1))
             assert scene.bounds.shape == (2, 3)
 
-    with e3d.Renderer(32, 24, threads=1) as renderer:
+    with Renderer(32, 24, threads=1) as renderer:
         live(20)
         gc.collect()
         assert len(alive) <= 2
@@ -202,7 +203,7 @@ def test_native_handles_go_with_their_objects():
     mesh = e3d.box()
     mesh.materials = [e3d.Material(texture=texture)]
     scene.add(mesh)
-    e3d.render(scene, size=(4, 4))
+    render(scene, size=(4, 4))
     assert mesh in native_handles._meshes
     assert texture in native_handles._textures
     meshes, textures = len(native_handles._meshes), len(native_handles._textures)
@@ -226,7 +227,7 @@ def test_steady_frames_take_no_memory(threads):
         for frame in range(frames):
             renderer.render(scene, (CAMERA, views[frame % len(views)]), outputs=outputs)
 
-    with e3d.Renderer(320, 180, threads=threads) as renderer:
+    with Renderer(320, 180, threads=threads) as renderer:
         draw(renderer, 50)
         faults = []
         for _ in range(ATTEMPTS):

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d.linalg import quaternion_from_axis_angle
@@ -23,9 +24,7 @@ def line_at(angle):
 def area(angle, width, samples=1, backend="auto"):
     """The pixels that it covers, by their brightness in linear light."""
     scene, view = line_at(angle)
-    with e3d.Renderer(
-        SIZE, SIZE, samples=samples, color_space="linear", backend=backend
-    ) as renderer:
+    with Renderer(SIZE, SIZE, samples=samples, color_space="linear", backend=backend) as renderer:
         frame = renderer.render(scene, view, mode="unlit", line_width=width)
     return frame.color[..., 0].sum() / 255.0
 
@@ -60,6 +59,6 @@ def test_edges_of_a_wireframe_are_as_wide(width):
         rotation = quaternion_from_axis_angle((0, 0, 1), angle)
         scene = e3d.Scene(background=(0, 0, 0))
         scene.add(square, rotation=rotation)
-        color = e3d.render(scene, view, samples=16, **options).color
+        color = render(scene, view, samples=16, **options).color
         areas.append(color[..., 0].sum() / 255.0)
     assert areas == [pytest.approx(2 * SIZE * width, rel=0.03)] * 2

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 
@@ -38,7 +39,7 @@ def test_it_shows_the_same_reversed(backend, options):
     """Snapped positions and ties may differ by a sample at the edges, never a side of a face."""
     scene, camera = scene_of_a_kind(), e3d.PerspectiveCamera(0.8)
     options = {"backend": backend, "size": SIZE, "outputs": OUTPUTS, **options}
-    plain, mirrored = (e3d.render(scene, (camera, pose), **options) for pose in poses())
+    plain, mirrored = (render(scene, (camera, pose), **options) for pose in poses())
     same = plain.face_id == mirrored.face_id[:, ::-1]
     assert same.mean() > 0.98 and (plain.face_id >= 0).mean() > 0.3
     for name in ("world_normal", "depth"):
@@ -54,8 +55,8 @@ def test_picking_finds_what_shows(outputs):
     scene, camera = scene_of_a_kind(), e3d.PerspectiveCamera(0.8)
     known = ("object_id", "face_id")
     for pose in poses():
-        frame = e3d.render(scene, (camera, pose), size=SIZE, outputs=outputs)
-        shown = e3d.render(scene, (camera, pose), size=SIZE, outputs=known)
+        frame = render(scene, (camera, pose), size=SIZE, outputs=outputs)
+        shown = render(scene, (camera, pose), size=SIZE, outputs=known)
         picked = 0
         for y in range(5, SIZE[1], 9):
             for x in range(3, SIZE[0], 7):

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d import linalg
@@ -162,7 +163,7 @@ def test_pictures_are_those_without_culling(options, perspective):
     outputs = ("color", "object_id", "face_id", "ndc_depth")
     pictures, draws = [], []
     for culling in ("tree", "frustum", "none"):
-        with e3d.Renderer(90, 70) as renderer:
+        with Renderer(90, 70) as renderer:
             frame = renderer.render(scene, camera, outputs=outputs, culling=culling, **options)
         pictures.append([getattr(frame, name).tobytes() for name in outputs])
         draws.append(frame.stats["nodes_in_frustum"])
@@ -178,7 +179,7 @@ def test_nodes_beyond_all_numbers_are_drawn_or_not_but_lose_no_others():
     scene.add(e3d.box(), translation=(1e300, 0, 0))
     seen = scene.add(e3d.box())
     camera = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 3), (0, 0, 0))
-    frame = e3d.render(scene, camera, size=(8, 8), outputs=("object_id",))
+    frame = render(scene, camera, size=(8, 8), outputs=("object_id",))
     assert seen.id in frame.object_id
 
 
@@ -211,7 +212,7 @@ def test_instances_that_do_not_show_are_left_out(kind, backend):
     scene.add(instances, rotation=(0.3, 0.1, 0.5, 0.8), translation=(0.2, 0, 0), scale=(1, 2, -0.5))
     scene.add(e3d.box((0.1, 3, 0.1)))
     outputs = ("color", "object_id", "instance_id", "face_id", "ndc_depth")
-    with e3d.Renderer(60, 40, backend=backend) as renderer:
+    with Renderer(60, 40, backend=backend) as renderer:
         for k in range(8):
             eye = (3 * math.sin(k), 1, 3 * math.cos(k))
             camera = e3d.PerspectiveCamera(0.7, znear=0.1, zfar=4), e3d.look_at(eye, (0, k, 0))
@@ -242,7 +243,7 @@ def test_boxes_tested_tell_the_tree_from_testing_one_by_one():
     scene.add(e3d.PointLight(), translation=(0, 3, 0))
     view = e3d.PerspectiveCamera(0.5, znear=0.1, zfar=20), e3d.look_at((7000, 0, 9), (7000, 0, 0))
     counts = {}
-    with e3d.Renderer(60, 40) as renderer:
+    with Renderer(60, 40) as renderer:
         for culling in ("none", "frustum", "tree", "all"):
             counts[culling] = renderer.render(scene, view, culling=culling).stats
             again = renderer.render(scene, view, culling=culling).stats  # where nothing changed

@@ -8,6 +8,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d.choices import Mode
@@ -38,7 +39,7 @@ def test_outputs_do_not_depend_on_each_other(scene, mode, distance):
     camera = e3d.PerspectiveCamera(), e3d.linalg.translation((0.0, 0.0, distance))
     sets = [(name,) for name in OUTPUTS]
     sets += [(name, other) for name in ("color", "radiance") for other in OUTPUTS if other != name]
-    with e3d.Renderer(*SIZE, threads=1) as renderer:
+    with Renderer(*SIZE, threads=1) as renderer:
         whole = renderer.render(scene, camera, mode=mode, outputs=OUTPUTS)
         for outputs in sets:
             frame = renderer.render(scene, camera, mode=mode, outputs=outputs)

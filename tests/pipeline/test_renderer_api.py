@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d import linalg
@@ -16,7 +17,7 @@ SIZE = 32
 
 @pytest.fixture(params=BACKENDS)
 def renderer(request):
-    return e3d.Renderer(SIZE, SIZE, backend=request.param, threads=2)
+    return Renderer(SIZE, SIZE, backend=request.param, threads=2)
 
 
 @pytest.fixture
@@ -107,7 +108,7 @@ BAD_OUTPUTS = (), (None,), (1,), ([],), (np.array(["a", "b"]),), (np.array(["col
 @pytest.mark.parametrize("outputs", BAD_OUTPUTS, ids=repr)
 def test_outputs_that_are_no_names_are_refused_by_every_frame(front, outputs):
     scene = scene_of(square())
-    with e3d.Renderer(SIZE, SIZE) as renderer:
+    with Renderer(SIZE, SIZE) as renderer:
         for _ in range(2):
             with pytest.raises(e3d.InvalidArgumentError, match="outputs"):
                 renderer.render(scene, front, outputs=outputs)
@@ -116,7 +117,7 @@ def test_outputs_that_are_no_names_are_refused_by_every_frame(front, outputs):
 
 def test_outputs_may_change_between_frames_and_so_may_their_size(front):
     scene, names = scene_of(square()), ["depth"]
-    with e3d.Renderer(SIZE, SIZE) as renderer:
+    with Renderer(SIZE, SIZE) as renderer:
         renderer.render(scene, front, outputs=names)
         names[0] = "uv"
         assert renderer.render(scene, front, outputs=names).uv.shape == (SIZE, SIZE, 2)
@@ -157,9 +158,7 @@ def test_rasterize_agrees_with_the_renderer(backend, front):
     clip_from_world = linalg.multiply(camera.projection(SIZE, SIZE), linalg.inverse(pose))
     clip = np.c_[mesh.positions, np.ones(len(mesh.positions))] @ clip_from_world.T
     result = e3d.rasterization.rasterize(clip, mesh.faces, SIZE, SIZE, cull="back", backend=backend)
-    frame = e3d.render(
-        scene_of(mesh), front, size=(SIZE, SIZE), backend=backend, outputs=("face_id",)
-    )
+    frame = render(scene_of(mesh), front, size=(SIZE, SIZE), backend=backend, outputs=("face_id",))
     np.testing.assert_array_equal(result.face_id, frame.face_id)
     assert np.isposinf(result.depth[result.face_id < 0]).all()
 
@@ -170,7 +169,7 @@ def test_rasterize_agrees_with_the_renderer(backend, front):
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("color_space", ["srgb", "linear"])
 def test_background_is_the_same_in_each_mode(mode, color_space):
-    renderer = e3d.Renderer(4, 4, color_space=color_space)
+    renderer = Renderer(4, 4, color_space=color_space)
     frame = renderer.render(e3d.Scene(background=(10, 128, 250)), mode=mode)
     assert (frame.color == (10, 128, 250, 255)).all()
 
@@ -184,7 +183,7 @@ def test_no_background_is_transparent(renderer, front):
 @pytest.mark.parametrize("color_space", ["srgb", "linear"])
 def test_8_bit_colours_come_back(front, color_space):
     mesh = square(materials=[e3d.Material(color=(200, 100, 3))])
-    renderer = e3d.Renderer(SIZE, SIZE, color_space=color_space)
+    renderer = Renderer(SIZE, SIZE, color_space=color_space)
     frame = renderer.render(scene_of(mesh), front, mode="unlit")
     assert (frame.color[16, 16] == (200, 100, 3, 255)).all()
 
@@ -195,7 +194,7 @@ def test_an_unlit_texture_at_its_size_gives_its_bytes(renderer, front, color_spa
     pixels = np.random.default_rng(1).integers(0, 256, (16, 16, 3), np.uint8)
     texture = e3d.Texture(pixels, filter=filter)
     mesh = square(materials=[e3d.Material(texture=texture)])
-    renderer = e3d.Renderer(SIZE, SIZE, backend=renderer.backend, color_space=color_space)
+    renderer = Renderer(SIZE, SIZE, backend=renderer.backend, color_space=color_space)
     frame = renderer.render(scene_of(mesh), front, mode="unlit")
     np.testing.assert_array_equal(frame.color[8:24, 8:24, :3], pixels)
 
@@ -221,7 +220,7 @@ def test_instance_colours(renderer, front):
 
 
 def lit_pixel(scene, front, **options):
-    renderer = e3d.Renderer(SIZE, SIZE, color_space="linear")
+    renderer = Renderer(SIZE, SIZE, color_space="linear")
     return renderer.render(scene, front, **options).color[16, 16, :3].tolist()
 
 
@@ -284,13 +283,13 @@ def test_specular_and_emissive(front):
 def test_flat_and_smooth_normals(front):
     sphere = e3d.uv_sphere(0.6, (8, 4))
     picture = {
-        normals: e3d.render(scene_of(sphere), front, size=(64, 64), normals=normals).color
+        normals: render(scene_of(sphere), front, size=(64, 64), normals=normals).color
         for normals in ("auto", "smooth", "flat")
     }
     assert (picture["auto"] == picture["smooth"]).all()
     assert len(np.unique(picture["flat"][..., 0])) < 20 < len(np.unique(picture["smooth"][..., 0]))
     sphere.materials = [e3d.Material(flat_shading=True)]
-    assert (e3d.render(scene_of(sphere), front, size=(64, 64)).color == picture["flat"]).all()
+    assert (render(scene_of(sphere), front, size=(64, 64)).color == picture["flat"]).all()
 
 
 @pytest.mark.parametrize("physical", [False, True])
@@ -303,7 +302,7 @@ def test_each_facet_has_the_light_of_its_middle(front, physical):
     scene = scene_of(ball, ambient=(0, 0, 0))
     scene.add(e3d.PointLight(intensity=intensity), translation=place)
     options = {"size": (96, 96), "normals": "facet", "outputs": ("radiance", "face_id")}
-    frame = e3d.render(scene, front, **options)
+    frame = render(scene, front, **options)
     shown = frame.face_id
     assert len(np.unique(shown)) > 50
     middles = ball.positions[ball.faces].astype(np.float64).mean(axis=1)
@@ -396,7 +395,7 @@ def test_samples_smooth_edges(front):
     scene = e3d.Scene()
     scene.add(square(), pose=linalg.rotation_z(0.3))
     tones = [
-        len(np.unique(e3d.render(scene, front, size=(32, 32), samples=samples).color[..., 0]))
+        len(np.unique(render(scene, front, size=(32, 32), samples=samples).color[..., 0]))
         for samples in (1, 4, 16)
     ]
     assert tones[0] == 2 < tones[1] < tones[2]
@@ -513,7 +512,7 @@ def test_a_change_shows_in_the_next_frame(renderer, front, change):
     change(scene, mesh, material, texture)
     after = renderer.render(scene, front).color
     assert not np.array_equal(after, before)
-    fresh = e3d.Renderer(SIZE, SIZE, backend=renderer.backend).render(scene, front).color
+    fresh = Renderer(SIZE, SIZE, backend=renderer.backend).render(scene, front).color
     np.testing.assert_array_equal(after, fresh)
 
 

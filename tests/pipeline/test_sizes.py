@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 
@@ -28,7 +29,7 @@ def free_memory():
     [(1, 1), (2, 1), (1, 2), (3, 5), (63, 65), (64, 64), (127, 3), (LARGEST, 1), (1, LARGEST)],
 )
 def test_odd_sizes(backend, width, height):
-    frame = e3d.render(left_half(), CAMERA, size=(width, height), mode="unlit", backend=backend)
+    frame = render(left_half(), CAMERA, size=(width, height), mode="unlit", backend=backend)
     white = np.arange(width) + 0.5 < width / 2
     expected = np.where(white[:, None], (255, 255, 255, 255), (0, 0, 90, 255)).astype(np.uint8)
     np.testing.assert_array_equal(frame.color, np.broadcast_to(expected, frame.color.shape))
@@ -47,11 +48,11 @@ def test_every_pixel_is_written(backend, samples, size):
         scene.add(e3d.uv_sphere(0.4, (24, 16)), translation=(x, x / 3, -3))
     camera, settings = e3d.PerspectiveCamera(), {"samples": samples}
     names = OUTPUTS[1] + OUTPUTS[2][1:]
-    expected = e3d.render(
+    expected = render(
         scene, (camera, np.eye(4)), size=size, backend="scalar", outputs=names, **settings
     )
     for threads in (1, 2):
-        renderer = e3d.Renderer(*size, backend=backend, threads=threads, **settings)
+        renderer = Renderer(*size, backend=backend, threads=threads, **settings)
         for outputs in OUTPUTS:
             frame = renderer.render(scene, (camera, np.eye(4)), outputs=outputs)
             for name in outputs:
@@ -63,7 +64,7 @@ def test_every_pixel_is_written(backend, samples, size):
 
 @pytest.mark.skipif(free_memory() < 4 << 30, reason="needs 4 GB of free memory")
 def test_the_largest_frame():
-    frame = e3d.render(left_half(), CAMERA, size=(LARGEST, LARGEST), mode="unlit")
+    frame = render(left_half(), CAMERA, size=(LARGEST, LARGEST), mode="unlit")
     half = LARGEST // 2
     assert (frame.color[::97, :half, 0] == 255).all()
     assert (frame.color[::97, half:, 2] == 90).all()

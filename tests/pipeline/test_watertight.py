@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d import linalg
@@ -100,7 +101,7 @@ def layers_color(count, backend):
     for k in range(count):
         scene.add(layer, translation=(0, 0, k / 9))
     camera = (e3d.Camera(np.eye(4)), np.eye(4))
-    return e3d.render(scene, camera, size=(1, 1), mode="overdraw", backend=backend).color[0, 0]
+    return render(scene, camera, size=(1, 1), mode="overdraw", backend=backend).color[0, 0]
 
 
 @pytest.mark.parametrize("mesh", [e3d.icosphere(2, 2), e3d.box(9), e3d.uv_sphere(2.5, (16, 8))])
@@ -109,7 +110,7 @@ def test_from_inside_a_closed_mesh(backend, mesh):
     one = layers_color(1, backend)
     scene = e3d.Scene()
     scene.add(mesh)
-    with e3d.Renderer(97, 61, backend=backend, threads=2) as renderer:
+    with Renderer(97, 61, backend=backend, threads=2) as renderer:
         for k in range(12):
             angle = 0.55 * k
             target = (math.cos(angle), 0.7 * math.sin(3 * angle), math.sin(angle))
@@ -127,7 +128,7 @@ def test_a_sheet_on_the_far_plane(backend):
     scene = e3d.Scene()
     scene.add(sheet, pose=pose)
     camera = e3d.OrthographicCamera(1, znear=0, zfar=4)
-    frame = e3d.render(
+    frame = render(
         scene,
         (camera, linalg.translation((0, 0, 4))),
         size=(33, 29),

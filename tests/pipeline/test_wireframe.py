@@ -6,6 +6,7 @@ alone, with nothing to hide them, are what the depth test must leave of all edge
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 
@@ -35,7 +36,7 @@ def edges(mesh, camera, **options):
     scene = e3d.Scene(background=(0, 0, 0))
     scene.add(mesh)
     options |= {"wireframe": "only", "mode": "unlit", "line_color": (255, 255, 255)}
-    return e3d.render(scene, camera, size=(SIZE, SIZE), **options).color[:, :, 0] > 0
+    return render(scene, camera, size=(SIZE, SIZE), **options).color[:, :, 0] > 0
 
 
 def front_part(mesh, eye):
@@ -82,9 +83,9 @@ def test_edges_alone_beside_lines_and_points(backend, hidden_lines):
         options = {"hidden_surfaces": ("zbuffer", "painter", "none")[turn % 3]}
         options |= {"line_width": (1.0, 3.5)[turn % 2], "point_size": 5.0, "size": (90, 70)}
         options |= {"wireframe": "only", "hidden_lines": hidden_lines}
-        wanted = e3d.render(scene, camera, backend="scalar", **options).color
+        wanted = render(scene, camera, backend="scalar", **options).color
         for more in ((), ("face_id",), ("depth", "normal")):
-            frame = e3d.render(
+            frame = render(
                 scene, camera, backend=backend, threads=2, outputs=("color", *more), **options
             )
             assert np.array_equal(frame.color, wanted), (turn, more)

@@ -148,6 +148,7 @@ RIGHT: dict[str, Any] = {
     "Mesh.save.path": "mesh.obj",
     "save_mesh.path": "mesh.obj",
     "save_animation.path": "turn.gif",
+    "load.path": OBJ,
     "load_mesh.path": OBJ,
     "load_scene.path": OBJ,
     "load_texture.path": PPM,

@@ -8,6 +8,7 @@ import functools
 import math
 
 import numpy as np
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 
@@ -42,7 +43,7 @@ def bent(**arrays):
     joints = [shown.add(), shown.add()]
     node = shown.add(bendable())
     node.skin = e3d.motion.Skin(joints, **arrays)
-    e3d.render(shown, camera(), size=SIZE, threads=1)
+    render(shown, camera(), size=SIZE, threads=1)
     return node
 
 
@@ -51,7 +52,7 @@ def influenced(joints, weights):
     chain = [shown.add() for _ in range(2)]
     node = shown.add(bendable(joints=joints, weights=weights))
     node.skin = e3d.motion.Skin(chain)
-    e3d.render(shown, camera(), size=SIZE, threads=1)
+    render(shown, camera(), size=SIZE, threads=1)
 
 
 def morphed(positions, normals, weights):
@@ -59,7 +60,7 @@ def morphed(positions, normals, weights):
     shown = e3d.Scene()
     node = shown.add(e3d.Mesh(np.eye(3), [[0, 1, 2]], morph_targets=[target]))
     node.morph_weights = weights
-    e3d.render(shown, camera(), size=SIZE, threads=1)
+    render(shown, camera(), size=SIZE, threads=1)
 
 
 def keyed(times, values, path="translation", interpolation="linear"):
@@ -69,7 +70,7 @@ def keyed(times, values, path="translation", interpolation="linear"):
     player.play()
     for time in (-1.0, 0.3, 9.0):
         player.seek(time)
-    e3d.render(shown, camera(), size=SIZE, threads=1)
+    render(shown, camera(), size=SIZE, threads=1)
 
 
 def changing(times, values, path="color", interpolation="linear"):
@@ -80,7 +81,7 @@ def changing(times, values, path="color", interpolation="linear"):
     player.play()
     for time in (-1.0, 0.3, 9.0):
         player.seek(time)
-    e3d.render(shown, camera(), size=SIZE, threads=1)
+    render(shown, camera(), size=SIZE, threads=1)
 
 
 def playing(name):
@@ -95,7 +96,7 @@ def playing(name):
             player.advance(0.5)
         else:
             getattr(player, name)(**value)
-        e3d.render(shown, camera(), size=SIZE, threads=1)
+        render(shown, camera(), size=SIZE, threads=1)
 
     return call
 
@@ -117,19 +118,19 @@ def camera():
 
 
 def draw(**options):
-    return e3d.render(scene(), **{"size": SIZE, "threads": 1, **options})
+    return render(scene(), **{"size": SIZE, "threads": 1, **options})
 
 
 def looked_at(obj):
     """What is accepted must be drawn as well."""
     shown = scene()
     shown.add(obj)
-    e3d.render(shown, camera(), size=SIZE, threads=1, wireframe="overlay")
+    render(shown, camera(), size=SIZE, threads=1, wireframe="overlay")
     if not isinstance(obj, e3d.Camera):
-        e3d.render(shown, size=SIZE, threads=1)
+        render(shown, size=SIZE, threads=1)
         assert np.isfinite(shown.bounds).all()
     else:
-        e3d.render(shown, shown.nodes[-1], size=SIZE, threads=1)
+        render(shown, shown.nodes[-1], size=SIZE, threads=1)
     shown.raycast((0, 0, 5), (0, 0, -1))
     return obj
 
@@ -150,7 +151,7 @@ def assigned(make, name):
             ball.materials = [e3d.Material(texture=texture) if texture else thing]
             thing = ball
         if isinstance(thing, e3d.Scene):
-            return e3d.render(thing, size=SIZE, threads=1)
+            return render(thing, size=SIZE, threads=1)
         return looked_at(thing)
 
     return assign
@@ -162,7 +163,7 @@ def node_set(name):
         setattr(shown.nodes[0], name, value)
         shown.nodes[0].world_pose, shown.nodes[0].euler, shown.nodes[0].bounds
         shown.raycast((0, 0, 5), (0, 0, -1))
-        return e3d.render(shown, size=SIZE, threads=1)
+        return render(shown, size=SIZE, threads=1)
 
     return assign
 
@@ -171,7 +172,7 @@ def selection_set(name):
     def assign(value):
         shown = scene()
         setattr(shown.select(), name, value)
-        return e3d.render(shown, size=SIZE, threads=1)
+        return render(shown, size=SIZE, threads=1)
 
     return assign
 
@@ -180,7 +181,7 @@ def added(**arguments):
     shown = scene()
     shown.add(mesh(), **arguments)
     shown.raycast((0, 0, 5), (0, 0, -1))
-    return e3d.render(shown, size=SIZE, threads=1), shown.bounds
+    return render(shown, size=SIZE, threads=1), shown.bounds
 
 
 def with_collider(collider, query):
@@ -207,7 +208,7 @@ def tracked(**arguments):
     animator.track(shown.nodes[0], **arguments)
     animator.seek(0.5)
     animator.advance(0.1)
-    return e3d.render(shown, size=SIZE, threads=1)
+    return render(shown, size=SIZE, threads=1)
 
 
 def spun(**arguments):
@@ -215,7 +216,7 @@ def spun(**arguments):
     animator = e3d.Animator(shown)
     animator.spin(shown.nodes[0], **arguments)
     animator.seek(0.5)
-    return e3d.render(shown, size=SIZE, threads=1)
+    return render(shown, size=SIZE, threads=1)
 
 
 def timed(name):
@@ -224,7 +225,7 @@ def timed(name):
         animator = e3d.Animator(shown)
         animator.spin(shown.nodes[0], period=2.0)
         getattr(animator, name)(value)
-        return e3d.render(shown, size=SIZE, threads=1)
+        return render(shown, size=SIZE, threads=1)
 
     return call
 
@@ -291,7 +292,7 @@ CALLS = {
     "Gradient": (lambda **a: e3d.Gradient(**a), {"top": (1, 1, 1), "bottom": (0, 0, 0)}),
     "Environment.load": (lambda **a: e3d.Environment.load(**a), {"path": RADIANCE}),
     "Scene": (
-        lambda **a: e3d.render(e3d.Scene(**a), size=SIZE, threads=1),
+        lambda **a: render(e3d.Scene(**a), size=SIZE, threads=1),
         {"background": (0, 0, 0), "ambient": (0, 0, 0), "light_clamp": (0, 1)},
     ),
     "Scene.add": (added, {"translation": (0, 0, 0), "euler": (0, 0, 0), "scale": 1.0}),
@@ -372,11 +373,11 @@ CALLS = {
         {"pose": IDENTITY},
     ),
     "Renderer": (
-        lambda **a: e3d.Renderer(**a).render(scene()),
+        lambda **a: Renderer(**a).render(scene()),
         {"width": 8, "height": 8, "threads": 1, "samples": 1},
     ),
     "Renderer.resize": (
-        lambda **a: e3d.Renderer(*SIZE, threads=1).resize(**a),
+        lambda **a: Renderer(*SIZE, threads=1).resize(**a),
         {"width": 8, "height": 8},
     ),
     "Frame.encode": (lambda **a: draw().encode(**a), {"format": "png"}),

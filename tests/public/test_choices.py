@@ -22,6 +22,7 @@ from engine3d.model.scene import lights, shadow_casting
 from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
+from engine3d.stage import lighting, look
 
 ACCEPTED = {
     "Backend": ["auto", *native.BACKENDS],
@@ -56,6 +57,9 @@ ACCEPTED = {
     "ImageFormat": frame._FORMATS,
     "PixelFormat": pixels.FORMATS,
     "PointerShape": POINTERS,
+    "LightSetup": lighting.SETUPS,
+    "LookName": look.LOOKS,
+    "Backdrop": [*look.THEMED, "scene"],
     "EulerOrder": ["".join(order) for order in permutations("XYZ")],
 }
 

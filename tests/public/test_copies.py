@@ -85,6 +85,7 @@ COPIED = {
         np.zeros((3, 4), np.float32), [[0, 1, 2]], 4, 4
     ),
     "RenderOptions": lambda: e3d.RenderOptions(line_color=(1, 2, 3)),
+    "Look": e3d.Look.studio,
     "Impostor": lambda: e3d.detail.Impostor(painted(), views=2, texels=8),
     "DetailedInstances": lambda: e3d.detail.DetailedInstances([(painted(), 0.0)], [(0, 0, 0, 1)]),
     "DetailedMeshes": lambda: e3d.detail.DetailedMeshes([((painted(),), 0.0)]),

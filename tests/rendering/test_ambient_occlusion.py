@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d import linalg
@@ -13,7 +14,7 @@ SIZE = (320, 240)
 
 def visible(scene, camera, size=SIZE, radius=None, **options):
     """What of white ambient light each pixel shows: its red in linear light, 8 bits."""
-    with e3d.Renderer(*size, color_space="linear") as renderer:
+    with Renderer(*size, color_space="linear") as renderer:
         frame = renderer.render(
             scene, camera, ambient_occlusion=True, ambient_occlusion_radius=radius, **options
         )
@@ -51,7 +52,7 @@ def test_what_is_flat_gets_all_light(name, axis):
     camera, pose = CAMERAS[name]
     for turn in (0.0, 0.3, 1.1):
         turned = linalg.rotation_y(turn) @ linalg.rotation_x(0.2 * turn) @ pose
-        with e3d.Renderer(*SIZE) as renderer:
+        with Renderer(*SIZE) as renderer:
             depth = renderer.render(scene, (camera, turned), outputs=("depth",)).depth
         shown = visible(scene, (camera, turned), radius=0.7)
         inside = depth != 0.0
@@ -78,7 +79,7 @@ def hidden_by_wall(distance, height, radius, rays=100_000):
 @pytest.mark.parametrize("radius", [0.25, 0.5])
 def test_a_corner_is_as_dark_as_the_integral(name, radius):
     scene = corner()
-    with e3d.Renderer(640, 480) as renderer:
+    with Renderer(640, 480) as renderer:
         outputs = ("world_position", "world_normal")
         frame = renderer.render(scene, CAMERAS[name], outputs=outputs)
     shown = visible(scene, CAMERAS[name], (640, 480), radius)[:, 320] / 255.0
@@ -143,8 +144,8 @@ def test_a_scaled_camera_does_not_change_the_radius():
 
 def test_blended_things_and_other_modes_have_none():
     scene = corner()
-    plain = e3d.render(scene, CAMERAS["perspective"], size=(80, 60), mode="unlit").color
-    asked = e3d.render(
+    plain = render(scene, CAMERAS["perspective"], size=(80, 60), mode="unlit").color
+    asked = render(
         scene, CAMERAS["perspective"], size=(80, 60), mode="unlit", ambient_occlusion=True
     ).color
     assert plain.tobytes() == asked.tobytes()
@@ -160,7 +161,7 @@ def test_the_same_for_all_samples_culling_and_batching():
     scene = corner()
     scene.add(e3d.box(0.4), translation=(0.3, 0.2, 0.4))
     options = e3d.RenderOptions(ambient_occlusion=True)
-    with e3d.Renderer(120, 90, samples=4) as renderer:
+    with Renderer(120, 90, samples=4) as renderer:
         first = renderer.render(scene, CAMERAS["perspective"], options=options).color.tobytes()
         for other in ({"culling": "none"}, {"batching": False}, {"shading": "forward"}):
             changed = dataclasses.replace(options, **other)
@@ -177,8 +178,8 @@ def test_wrong_radii_are_refused(wrong):
 def test_empty_scenes_and_odd_projections_are_drawn():
     empty = e3d.Scene()
     camera = e3d.PerspectiveCamera(), np.eye(4)
-    assert not e3d.render(empty, camera, size=(9, 7), ambient_occlusion=True).color[..., :3].any()
+    assert not render(empty, camera, size=(9, 7), ambient_occlusion=True).color[..., :3].any()
     matrix = np.eye(4)
     matrix[0, 0] = 0.0
     odd = e3d.Camera(matrix), np.eye(4)
-    e3d.render(corner(), odd, size=(9, 7), ambient_occlusion=True)
+    render(corner(), odd, size=(9, 7), ambient_occlusion=True)

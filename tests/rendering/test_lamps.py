@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 
@@ -73,7 +74,7 @@ def camera():
 
 def drawn(scene, **options):
     # Where backs are culled, light comes out of a ball by its map.
-    return e3d.render(scene, camera(), size=SIZE, cull="none", **options).color
+    return render(scene, camera(), size=SIZE, cull="none", **options).color
 
 
 @pytest.mark.parametrize("shadow", SHADOWS)
@@ -111,7 +112,7 @@ def test_all_backends_let_it_pass_alike():
 def test_a_renderer_that_drew_before_follows_what_glows_and_where(shadow):
     material = e3d.Material(color=(0, 0, 0))
     scene, ball = room(same_place, shadow, material)
-    with e3d.Renderer(*SIZE) as renderer:
+    with Renderer(*SIZE) as renderer:
 
         def check():
             kept = renderer.render(scene, camera(), cull="none").color
@@ -145,8 +146,8 @@ def test_in_mode_unlit_a_lamp_shows_how_it_glows(backend):
     scene = e3d.Scene(background=(0, 0, 0))
     scene.add(glowing())
     look = (e3d.PerspectiveCamera(0.5), e3d.look_at((0, 0, 3), (0, 0, 0), (0, 1, 0)))
-    color = e3d.render(scene, look, size=(9, 9), mode="unlit", backend=backend).color
+    color = render(scene, look, size=(9, 9), mode="unlit", backend=backend).color
     assert tuple(color[4, 4, :3]) == tuple(
-        e3d.render(scene, look, size=(9, 9), backend=backend).color[4, 4, :3]
+        render(scene, look, size=(9, 9), backend=backend).color[4, 4, :3]
     )
     assert color[4, 4, 0] == 255

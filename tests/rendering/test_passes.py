@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d.rendering.passes import all_passes as _passes
@@ -50,9 +51,9 @@ def scene():
 
 
 def test_a_pass_gets_outputs_that_nobody_asked_for(monkeypatch, scene):
-    plain = e3d.render(scene, size=(40, 30), mode="unlit", outputs=("color", "normal"))
+    plain = render(scene, size=(40, 30), mode="unlit", outputs=("color", "normal"))
     monkeypatch.setattr(_passes, "PASSES", (ColorPass, Darker))
-    with e3d.Renderer(40, 30) as renderer:
+    with Renderer(40, 30) as renderer:
         for outputs in (("color",), ("normal", "color"), ("color",)):
             frame = renderer.render(scene, mode="unlit", outputs=outputs)
             assert frame.outputs == outputs
@@ -61,7 +62,7 @@ def test_a_pass_gets_outputs_that_nobody_asked_for(monkeypatch, scene):
                 frame.color[..., :3], (plain.color[..., :3] * shade).astype(np.uint8)
             )
         depth = renderer.render(scene, outputs=("depth",)).depth
-    assert np.array_equal(depth, e3d.render(scene, size=(40, 30), outputs=("depth",)).depth)
+    assert np.array_equal(depth, render(scene, size=(40, 30), outputs=("depth",)).depth)
 
 
 def test_a_pass_that_reads_no_scene_is_not_blamed_on_it(monkeypatch, scene):
@@ -76,5 +77,5 @@ def test_a_pass_that_reads_no_scene_is_not_blamed_on_it(monkeypatch, scene):
     for reads, error in (((), ArithmeticError), (("scene",), e3d.errors.SceneChangedError)):
         monkeypatch.setattr(Wrong, "reads", reads)
         monkeypatch.setattr(_passes, "PASSES", (Wrong, ColorPass))
-        with e3d.Renderer(8, 8) as renderer, pytest.raises(error):
+        with Renderer(8, 8) as renderer, pytest.raises(error):
             renderer.render(scene)

@@ -54,7 +54,7 @@ def test_identities_need_no_normals():
 
 def test_errors():
     renderer = e3d.Renderer(8, 6)
-    with pytest.raises(e3d.InvalidArgumentError, match="scene must be a Scene"):
+    with pytest.raises(e3d.InvalidArgumentError, match="can be drawn, not NoneType"):
         renderer.prepare(None)
     with pytest.raises(e3d.InvalidArgumentError, match="mode must be one of"):
         renderer.prepare(e3d.Scene(), mode="fast")

@@ -22,7 +22,7 @@ def scene():
         ((0, 6), {}, r"width must be a whole number in 1\.\.16384"),
         ((8, 16385), {}, "height"),
         ((8.5, 6), {}, "width"),
-        ((8, 6), {"samples": 2}, "samples=2 needs antialiasing=.msaa"),
+        ((8, 6), {"samples": 2, "antialiasing": "ssaa"}, "samples=2 needs antialiasing=.msaa"),
         ((8, 6), {"color_space": "hsv"}, "color_space must be one of 'srgb', 'linear'"),
         ((8, 6), {"threads": -1}, "threads"),
     ],
@@ -63,9 +63,9 @@ def test_render(renderer, scene, options, message):
         renderer.render(scene, **options)
 
 
-def test_scene_must_be_a_scene(renderer):
-    with pytest.raises(e3d.InvalidArgumentError, match="scene must be a Scene, not Mesh"):
-        renderer.render(e3d.box())
+def test_something_drawable_is_drawn(renderer):
+    with pytest.raises(e3d.InvalidArgumentError, match="a mesh or points can be drawn, not int"):
+        renderer.render(5)
 
 
 def test_camera_node_must_hold_a_camera(renderer, scene):

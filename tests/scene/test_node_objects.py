@@ -5,6 +5,7 @@ import weakref
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 
@@ -17,7 +18,7 @@ DOWN = (0, 0, -1)
 def everything(scene, renderer):
     """What a scene shows, to a renderer that is kept, to a new one, and to rays."""
     frame = renderer.render(scene, VIEW, outputs=OUTPUTS)
-    fresh = e3d.render(scene, VIEW, size=SIZE, outputs=OUTPUTS)
+    fresh = render(scene, VIEW, size=SIZE, outputs=OUTPUTS)
     assert np.array_equal(frame.color, fresh.color)
     assert np.array_equal(frame.object_id, fresh.object_id)
     hits = scene.raycast_many([(-1, 0, 5), (1, 0, 5)], DOWN)
@@ -31,7 +32,7 @@ def test_an_empty_node_is_filled_replaced_and_emptied():
     scene.add(box, translation=(-1, 0, 0))
     node = scene.add(translation=(1, 0, 0), name="later")
     child = scene.add(e3d.primitives.quad(), parent=node, translation=(0, 0, -1))
-    with e3d.Renderer(*SIZE) as renderer:
+    with Renderer(*SIZE) as renderer:
         assert everything(scene, renderer)[3].tolist() == [0, child.id]
         for obj in (box, ball, crowd, None, e3d.PointLight(), ball, e3d.PerspectiveCamera(), box):
             node.object = obj
@@ -41,7 +42,7 @@ def test_an_empty_node_is_filled_replaced_and_emptied():
             twin = other.add(obj, translation=(1, 0, 0))
             other.add(e3d.primitives.quad(), parent=twin, translation=(0, 0, -1))
             for one, expected in zip(
-                everything(scene, renderer), everything(other, e3d.Renderer(*SIZE)), strict=True
+                everything(scene, renderer), everything(other, Renderer(*SIZE)), strict=True
             ):
                 assert np.array_equal(one, expected), obj
             assert np.array_equal(node.bounds, twin.bounds) or node.bounds is twin.bounds is None
@@ -62,12 +63,10 @@ def test_cameras_and_lights_stand_in_the_order_of_their_nodes():
     other.add(lamp.object, translation=(1, 1, 2))
     for node in scene.nodes[2:]:
         other.add(node.object, pose=node.pose)
-    assert np.array_equal(e3d.render(scene, size=SIZE).color, e3d.render(other, size=SIZE).color)
+    assert np.array_equal(render(scene, size=SIZE).color, render(other, size=SIZE).color)
     first.object = lamp.object = None
     assert scene.data.camera_node() is scene.nodes[3]
-    assert not np.array_equal(
-        e3d.render(scene, size=SIZE).color, e3d.render(other, size=SIZE).color
-    )
+    assert not np.array_equal(render(scene, size=SIZE).color, render(other, size=SIZE).color)
 
 
 def test_colliders_follow_the_object():
@@ -89,7 +88,7 @@ def test_what_was_replaced_is_let_go():
     scene = e3d.Scene()
     node = scene.add()
     alive = weakref.WeakSet()
-    with e3d.Renderer(16, 12, threads=1) as renderer:
+    with Renderer(16, 12, threads=1) as renderer:
         for _ in range(20):
             node.object = mesh = e3d.icosphere(1.0, 1)
             alive.add(mesh)

@@ -4,6 +4,7 @@ import gc
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 
@@ -14,7 +15,7 @@ MESHES = e3d.box(0.8), e3d.icosphere(0.6, 1)
 def seen(scene, renderer):
     """What a scene shows to a renderer that is kept, to a new one, to rays and to boxes."""
     frame = renderer.render(scene, VIEW, outputs=("color", "object_id"))
-    fresh = e3d.render(scene, VIEW, size=(64, 48), outputs=("color", "object_id"))
+    fresh = render(scene, VIEW, size=(64, 48), outputs=("color", "object_id"))
     assert frame.color.tobytes() == fresh.color.tobytes()
     hits = scene.raycast_many(np.mgrid[-2:3, -2:3, 5:6].reshape(3, -1).T, (0, 0, -1))
     return (
@@ -50,7 +51,7 @@ def random_scene(random):
 def test_all_is_as_it_was_when_what_was_removed_is_back(seed):
     random = np.random.default_rng(seed)
     scene = random_scene(random)
-    with e3d.Renderer(64, 48) as renderer:
+    with Renderer(64, 48) as renderer:
         states, gone = [seen(scene, renderer)], []
         for _ in range(8):
             node = scene.nodes[random.integers(len(scene.nodes))]

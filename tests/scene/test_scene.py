@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d import linalg
@@ -35,7 +36,7 @@ def test_nodes_and_renderers_say_that_they_cannot_be_copied(scene, copied):
     with pytest.raises(TypeError, match="belongs to its Scene"):
         copied(node)
     with (
-        e3d.Renderer(4, 4) as renderer,
+        Renderer(4, 4) as renderer,
         pytest.raises(TypeError, match="make one in each process"),
     ):
         copied(renderer)
@@ -56,7 +57,7 @@ def test_nodes_and_renderers_say_that_they_cannot_be_copied(scene, copied):
         e3d.PerspectiveCamera(),
         e3d.OrthographicCamera(1.0),
         e3d.IntrinsicsCamera(1.0, 1.0, 0.0, 0.0),
-        e3d.Renderer(8, 8),
+        Renderer(8, 8),
         e3d.Scene().select(),
         e3d.Animator(e3d.Scene()),
         e3d.navigation.Walker(e3d.navigation.NavigationGrid(e3d.plane((4, 4))), 0, 0),

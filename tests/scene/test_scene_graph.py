@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d import linalg
@@ -232,7 +233,7 @@ def test_removed_objects_are_let_go():
 def test_draws_follow_what_comes_and_goes():
     camera = e3d.OrthographicCamera(2.0), e3d.look_at((0, 0, 5), (0, 0, 0))
     scene = e3d.Scene()
-    with e3d.Renderer(8, 8, backend="scalar") as renderer:
+    with Renderer(8, 8, backend="scalar") as renderer:
 
         def ids():
             frame = renderer.render(scene, camera, outputs=("object_id",))

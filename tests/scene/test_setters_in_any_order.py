@@ -8,6 +8,7 @@ import itertools
 
 import numpy as np
 import pytest
+from plain_picture import Renderer
 from writers.any_scene import ARRAYS, MATERIALS, color, pick, target
 
 import engine3d as e3d
@@ -298,7 +299,7 @@ def differing(one, other):
 def test_only_the_end_is_seen(seed):
     rng = np.random.default_rng(seed)
     settings = {"threads": 1, "backend": ("auto", "portable", "scalar")[seed % 8 // 3 * (seed % 2)]}
-    things, kept = Things(), e3d.Renderer(*SIZE, **settings)
+    things, kept = Things(), Renderer(*SIZE, **settings)
     possible = list(steps(end=False))
     for number in range(60):
         step = possible[rng.integers(len(possible))]
@@ -318,5 +319,5 @@ def test_only_the_end_is_seen(seed):
     expected_left = [*take_all(fresh, first), *take_all(fresh, others)]
     assert sorted(map(str, left)) == sorted(map(str, expected_left))
     for which in range(len(LOOKS)):
-        expected = look(fresh, e3d.Renderer(*SIZE, **settings), which)
+        expected = look(fresh, Renderer(*SIZE, **settings), which)
         assert not differing(look(things, kept, which), expected), LOOKS[which]

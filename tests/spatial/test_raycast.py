@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer, render
 
 import engine3d as e3d
 from engine3d import linalg
@@ -188,7 +189,7 @@ def test_picking_tells_what_the_picture_shows(exact, perspective):
     scene, _ = random_scene(5)
     camera = e3d.PerspectiveCamera(znear=2) if perspective else e3d.OrthographicCamera(8.0)
     camera = camera, e3d.look_at((3, 5, 18), (0, 0, 0))
-    with e3d.Renderer(40, 30) as renderer:
+    with Renderer(40, 30) as renderer:
         shown = renderer.render(scene, camera, outputs=(*IDS, "world_position"))
         frame = shown if exact else renderer.render(scene, camera)
     agreed = 0
@@ -209,7 +210,7 @@ def test_picking_lines_and_removed_nodes():
     scene = e3d.Scene()
     node = scene.add(e3d.Mesh([(-1, 0, 0), (1, 0, 0)], lines=[(0, 1)]))
     camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 5), (0, 0, 0))
-    frame = e3d.render(scene, camera, size=(8, 8), outputs=IDS, line_width=3)
+    frame = render(scene, camera, size=(8, 8), outputs=IDS, line_width=3)
     hit = scene.pick(frame, 4, 4)
     assert (hit.node, hit.face) == (node, -1)
     assert scene.pick(frame, 0, 0) is None
@@ -227,7 +228,7 @@ def test_picking_what_is_not_there_any_more():
     crowd = e3d.InstancedMesh(mesh, [(9, 0, 0, 1), (0, 0, 0, 1)])
     scene = e3d.Scene()
     node = scene.add(crowd)
-    frame = e3d.render(scene, camera, size=(9, 9), outputs=outputs)
+    frame = render(scene, camera, size=(9, 9), outputs=outputs)
     assert scene.pick(frame, 4, 4)[:2] == (node, 1)
     for poses in ([(9, 0, 0, 1)], []):
         crowd.replace(poses)
@@ -240,7 +241,7 @@ def test_picking_what_is_not_there_any_more():
 
 @pytest.mark.parametrize("pixel", [("a", 1), (1, None), ((1, 2), 3)])
 def test_a_pixel_is_two_numbers(pixel):
-    frame = e3d.render(e3d.Scene(), size=(8, 8))
+    frame = render(e3d.Scene(), size=(8, 8))
     with pytest.raises(e3d.InvalidArgumentError, match="frame must be a Frame, not NoneType"):
         e3d.Scene().pick(None, *pixel)
     with pytest.raises(e3d.InvalidArgumentError, match="x and y, a pixel, are numbers"):

@@ -48,5 +48,5 @@ def test_deep_trees_are_no_trouble():
 def test_a_scene_is_itself_and_other_things_are_refused():
     scene = e3d.Scene()
     assert scene_of(scene) is scene and scene_of("cube.obj") is None
-    with pytest.raises(e3d.InvalidArgumentError, match="a scene, a node or a mesh .* not str"):
-        e3d.render("cube.obj")
+    with pytest.raises(e3d.InvalidArgumentError, match="a scene, a node, a mesh .* not int"):
+        e3d.render(5)

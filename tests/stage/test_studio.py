@@ -131,7 +131,7 @@ def test_scenes_of_their_own_and_the_plain_look_have_no_stage():
     scene, renderer = staged(settings=Settings({}))
     with renderer:
         renderer.draw(renderer.view())
-    assert shadow_of(renderer) is None and renderer.staging.scene.background == DARK.background
+    assert shadow_of(renderer) is None and renderer.staging.scene.background == scene.background
 
 
 # ---- the ground is behind the model, and shows from above only ----

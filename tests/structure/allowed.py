@@ -14,6 +14,8 @@ LONG_SIGNATURES = (
     "model.navigation.grid.__init__",
     "model.scene.lights.__init__",
     "model.scene.scene.add",
+    "stage.render.render",
+    "stage.renderer.__init__",
 )
 # The attributes are those that users know; in compat.pyrender, pyrender's own.
 LARGE_CLASSES = (
@@ -32,6 +34,7 @@ REPEATED_LISTS = {
         "apps.viewer.actions, choices: all to tree",
         "apps.viewer.window, choices: arrow to working",
         "choices, rendering.frame: jpeg to webp",
+        "choices, stage.lighting: headlight to two colours",
     ),
     "what is written, and the shape that is demanded of what is read": (
         "apps.batch.records: files to said",

@@ -25,7 +25,7 @@ def ball(light=None):
 
 
 def make_viewer(viewed=None, **settings):
-    view_renderer = ViewRenderer(viewed or ball(), Settings({}, **settings), SIZE)
+    view_renderer = ViewRenderer(viewed or ball(), Settings({"cull": "back"}, **settings), SIZE)
     return Viewer(view_renderer, ScriptedWindow(size=SIZE))
 
 

@@ -203,7 +203,7 @@ def test_the_appearance_follows_the_keys():
     assert appearance.wireframe == "overlay"
     assert appearance.mode == "normal"
     assert appearance.normals == "flat"
-    assert appearance.cull == "front"
+    assert appearance.cull == "none"
     assert appearance.line_width == 2.0
     assert viewer.view.orthographic
     assert not appearance.ambient_occlusion

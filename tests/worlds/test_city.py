@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from patience import HUNG
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
@@ -146,7 +147,7 @@ def test_added_to_a_scene_it_is_a_node_a_district(town):
     scene = e3d.Scene()
     group = town.add_to(scene)
     assert [node.object for node in group.children] == list(town.districts)
-    frame = e3d.render(scene, size=(64, 48), outputs=("color", "object_id"))
+    frame = render(scene, size=(64, 48), outputs=("color", "object_id"))
     assert len(np.unique(frame.object_id)) > 3
 
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from plain_picture import Renderer
 
 import engine3d as e3d
 from engine3d.apps.scenes import load_demo
@@ -32,7 +33,7 @@ def draw(view_renderer, view, znear=None, outputs=("color",)):
     camera = view_renderer._camera(view)
     if znear is not None:
         camera = e3d.PerspectiveCamera(view.yfov, znear=znear, zfar=camera.zfar)
-    with e3d.Renderer(*SIZE) as renderer:
+    with Renderer(*SIZE) as renderer:
         return renderer.render(view_renderer.viewed.scene, (camera, view.pose()), outputs=outputs)
 
 

@@ -4,6 +4,7 @@ import hashlib
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 
@@ -63,10 +64,10 @@ def test_nobody_sees_it_from_where_it_is_chosen(world, levels, seed):
     pose = e3d.look_at((side[0], 230.0, side[1]), random.uniform(-40, 40, 3) * (1, 0, 1))
     size = (360, 240)
     outputs = ("color", "depth", "object_id")
-    fine = e3d.render(scene, (camera, pose), size=size, outputs=outputs)
+    fine = render(scene, (camera, pose), size=size, outputs=outputs)
     assert detailed.update(camera, pose, size)
     assert len(set(detailed.level)) > 1
-    frame = e3d.render(scene, (camera, pose), size=size, outputs=outputs)
+    frame = render(scene, (camera, pose), size=size, outputs=outputs)
     assert frame.stats["triangles"] < 0.8 * fine.stats["triangles"]
     ids = {place.id for place in group.children}
     assert set(np.unique(frame.object_id)) <= {-1, *ids}

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from patience import HUNG
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.errors import FileAccessError
@@ -42,7 +43,7 @@ def save_mesh(path):
 def save_frame(path):
     scene = e3d.Scene()
     scene.add(e3d.uv_sphere())
-    e3d.render(scene, size=(64, 48)).save(path)
+    render(scene, size=(64, 48)).save(path)
 
 
 def save_turntable(path):

@@ -4,6 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.apps.cli import main
@@ -147,7 +148,7 @@ def test_options_of_the_texture_come_back(tmp_path):
         "mtllib in.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
         "usemtl m\nf 1/1 2/2 3/3\n"
     )
-    e3d.render(e3d.Scene(), size=(2, 2)).save(tmp_path / "a.png")
+    render(e3d.Scene(), size=(2, 2)).save(tmp_path / "a.png")
     mesh = e3d.load_mesh(tmp_path / "in.obj")
     assert said_of(mesh, tmp_path / "out.obj") == []
     again = loaded(tmp_path / "out.obj")

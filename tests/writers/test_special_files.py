@@ -7,6 +7,7 @@ import threading
 
 import numpy as np
 import pytest
+from plain_picture import render
 
 import engine3d as e3d
 from engine3d.base.files.atomic_write import atomic_write
@@ -18,7 +19,7 @@ from engine3d.loaders import load_document, load_mesh, load_texture
 def save_frame(path):
     scene = e3d.Scene()
     scene.add(e3d.box())
-    e3d.render(scene, size=(8, 8)).save(path)
+    render(scene, size=(8, 8)).save(path)
 
 
 def save_mesh(path):

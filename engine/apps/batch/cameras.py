@@ -160,7 +160,7 @@ def _framed(
     return frame_scene(
         scene,
         aspect=size[0] / size[1],
-        yfov=math.radians(said.get("yfov_degrees", _YFOV)),
+        yfov=math.radians(said["yfov_degrees"]) if "yfov_degrees" in said else None,
         margin=said.get("margin", 1.05),
         **way,
     )

@@ -22,7 +22,7 @@ from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 from ...rendering.options import RenderOptions
-from ...rendering.renderer import Renderer
+from ...stage.renderer import Renderer
 from ...version import __version__
 from ..datasets.generator import Generator
 from ..datasets.samples import Sample
@@ -33,7 +33,7 @@ from .loading import LoadedFiles, loading, not_written_to
 from .plain import PlainWriter
 from .records import is_done, write_picture
 from .scripts import Said, Scripts
-from .task import Task
+from .task import Task, default_look
 
 if TYPE_CHECKING:
     from ...stage.blank import Reason
@@ -157,8 +157,9 @@ class Drawer:
         inputs = InputFiles(task.folder)
         for path in task.inputs:
             inputs.note(task.path(path))
-        if task.look is not None:
-            self._draw_look(task, out, writer, inputs)
+        look = task.look or default_look(task)
+        if task.look is not None or (look is not None and isinstance(writer, PlainWriter)):
+            self._draw_look(task, look, out, writer, inputs)
             return
         with loading(self._files, inputs, out):
             scene, said = self._scene(task, inputs)
@@ -199,7 +200,9 @@ class Drawer:
         drawing = {"backend": self._backend, "threads": self._threads}
         return why_blank(Sight(scene, camera, pose, tuple(task.size), look, drawing))
 
-    def _draw_look(self, task: Task, out: str, writer: DatasetWriter, inputs: InputFiles) -> None:
+    def _draw_look(
+        self, task: Task, look: str, out: str, writer: DatasetWriter, inputs: InputFiles
+    ) -> None:
         """Draw a model as ``engine3d render`` does."""
         from .looks import draw_look
 
@@ -207,7 +210,7 @@ class Drawer:
             raise InvalidArgumentError("a look is for pictures, not for data sets")
         inputs.note(task.path(task.model))
         with found_files(inputs.note):
-            frame, blank = draw_look(task, self._threads, self._backend, not_written_to(out))
+            frame, blank = draw_look(task, look, self._threads, self._backend, not_written_to(out))
         files = writer.files(task.name, frame)
         write_picture(out, task, task.key(writer), inputs, files, None, blank)
 

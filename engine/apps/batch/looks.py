@@ -15,21 +15,23 @@ from ...choices import Backend
 from ...errors import Engine3DWarning
 from ...rendering.frame import Frame
 from ...stage.blank import Reason
+from ...stage.look import LookChoice
 from ...stage.open_models import open_models
-from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
-from ...stage.views.first_view import DEFAULT_YFOV, FirstView
+from ...stage.viewed_thing import settings_for
+from ...stage.views.first_view import FirstView
 from .task import Task
 
 
 def draw_look(
-    task: Task, threads: int, backend: Backend, companion: Callable[[str], bool]
+    task: Task, look: LookChoice, threads: int, backend: Backend, companion: Callable[[str], bool]
 ) -> tuple[Frame, Reason | None]:
-    """Draw a task's model in its look; also return why it is blank, or None.
+    """Draw a task's model in a look; also return why it is blank, or None.
 
     Parameters
     ----------
     task : Task
+    look : str
     threads, backend
         As of `Renderer`.
     companion : callable
@@ -44,7 +46,7 @@ def draw_look(
         warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
     with ViewRenderer(
         viewed,
-        Settings(appearance={}, look=task.look),
+        settings_for(task.path(task.model), look),
         task.size,
         backend=backend,
         threads=threads,
@@ -59,7 +61,7 @@ def draw_look(
 def _view(said: dict[str, Any]) -> FirstView:
     angle = said.get("yfov_degrees")
     return FirstView(
-        yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
+        yfov=None if angle is None else math.radians(angle),
         azimuth=math.radians(said.get("azimuth_degrees", 0.0)),
         elevation=math.radians(said.get("elevation_degrees", 0.0)),
     )

@@ -18,7 +18,7 @@ from ...base.calls import checks_types
 from ...base.image_size import check_size
 from ...base.numbers import shown
 from ...base.validation import choose
-from ...choices import Antialias, ImageFormat, Samples
+from ...choices import Antialias, ImageFormat, LookName, Samples
 from ...errors import InvalidArgumentError
 from ...model.scene.scene import Scene
 from ...rendering.frame import OUTPUTS
@@ -30,7 +30,6 @@ from .members import member
 
 #: The scene settings that a task may override.
 SCENE_KEYS = ("background", "ambient", "light_clamp", "exposure")
-LOOKS = ("studio", "plain")
 _LOOK_CAMERA = ("azimuth_degrees", "elevation_degrees", "yfov_degrees", "name")
 _NAME = re.compile(r"[^\W_][\w .+@=,-]*(?:/[^\W_][\w .+@=,-]*)*")
 _LONGEST = 200  # characters: with a folder and a suffix, it must still be a valid file name
@@ -64,10 +63,12 @@ class Task:
     render : mapping
         Keyword arguments of `RenderOptions`, except ``outputs``.
     look : {"studio", "plain"}, optional
-        Draw the model as ``engine3d render --look`` does, instead of as a plain scene. Such a task
-        allows no script, ``render``, ``scene`` or output except colour, and only the camera members
-        ``azimuth_degrees`` and ``elevation_degrees``, relative to the command's view, and
-        ``yfov_degrees``.
+        Draw the model as ``engine3d render --look`` does. Such a task allows no script, ``render``,
+        ``scene`` or output except colour, and only the camera members ``azimuth_degrees`` and
+        ``elevation_degrees``, relative to the command's view, and
+        ``yfov_degrees``. By default, tasks with
+        nothing but a model and colour are drawn so in the look ``"studio"``; in other tasks, scenes
+        without light of their own are dressed as by `engine3d.render`.
     scene : mapping
         ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as in `Scene`.
     outputs : sequence of str
@@ -97,9 +98,9 @@ class Task:
     camera: int | Mapping[str, Any] | None = None
     size: tuple[int, int] = (320, 240)
     samples: Samples = 4
-    antialiasing: Antialias = "ssaa"
+    antialiasing: Antialias = "msaa"
     render: Mapping[str, Any] = field(default_factory=dict)
-    look: str | None = None
+    look: LookName | None = None
     scene: Mapping[str, Any] = field(default_factory=dict)
     outputs: Sequence[str] = ("color",)
     seed: int = 0
@@ -142,15 +143,24 @@ def check_look(task: Task) -> None:
     ------
     InvalidArgumentError
     """
-    if task.look is None:
-        return
+    other = [] if task.look is None else _not_with_look(task)
+    if other:
+        raise InvalidArgumentError(f"look does not go with {', '.join(other)}")
+
+
+def default_look(task: Task) -> LookName | None:
+    """Return the look of a task that names none: None if its scene is not only a model."""
+    return None if task.camera is not None or _not_with_look(task) else "studio"
+
+
+def _not_with_look(task: Task) -> list[str]:
+    """Return what a task has that a look does not go with."""
     other = [key for key in ("script", "render", "scene") if getattr(task, key)]
     other += [f"the output {name}" for name in task.outputs if not name.startswith("color")]
     if task.camera is not None:
         said = task.camera if isinstance(task.camera, Mapping) else {"a number of a camera": 0}
         other += [f"camera: {key}" for key in said if key not in _LOOK_CAMERA]
-    if other:
-        raise InvalidArgumentError(f"look does not go with {', '.join(other)}")
+    return other
 
 
 def task_of(values: Mapping[str, Any]) -> Task:
@@ -300,7 +310,7 @@ _CHECKS = {
     "antialiasing": lambda value: choose(value, get_args(Antialias), "antialiasing"),
     "render": _render,
     "scene": _scene,
-    "look": lambda value: choose(value, (None, *LOOKS), "look"),
+    "look": lambda value: choose(value, (None, *get_args(LookName)), "look"),
     "outputs": _outputs,
     "seed": _whole("seed"),
     "inputs": _texts("inputs"),

@@ -46,7 +46,7 @@ class Drawing:
             samples=samples,
             color_space=workload.color_space,
         )
-        self._options = {**workload.options, **options}
+        self._options = {"cull": "back", **workload.options, **options}
 
     def draw(self, frame: int) -> np.ndarray:
         """Draw a frame and return its output."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import Camera
 from ...model.scene.scene import Scene
+from ...model.scene.staged_scene import StagedScene
 from ...rendering.options import RenderOptions
 from .samples import Sample, Thing, box_of
 
@@ -59,7 +60,8 @@ def silhouette_of(thing: Thing, sample: Sample) -> Silhouette:
     return Silhouette(mask, count, (x - width, y - height, wide, high) if count else (0, 0, 0, 0))
 
 
-def _scene_of(thing: Thing) -> Scene:
+def _scene_of(thing: Thing) -> StagedScene:
+    """Return the scene of a thing; being staged, it wears no look."""
     alone = Scene()
     for part in thing.parts:
         if part.skin is not None or part.morph_weights is not None:
@@ -67,14 +69,14 @@ def _scene_of(thing: Thing) -> Scene:
                 f"{part.name!r} is bent by a skin or morph targets: BOP has rigid objects"
             )
         alone.add(part.object, pose=part.world_pose)
-    return alone
+    return StagedScene(alone)
 
 
 def _reaches_the_edge(mask: NDArray[np.bool_]) -> bool:
     return bool(mask[[0, -1]].any() or mask[:, [0, -1]].any())
 
 
-def _around(alone: Scene, sample: Sample, options: RenderOptions) -> NDArray[np.bool_]:
+def _around(alone: StagedScene, sample: Sample, options: RenderOptions) -> NDArray[np.bool_]:
     """Return the silhouette on a canvas of three times the picture's size, centred."""
     renderer = sample.renderer
     width, height = renderer.width, renderer.height

@@ -21,8 +21,8 @@ from ...io.reading.loading import document_of, texture_of
 from ...io.reading.sources import read_source, stem_and_extension
 from ...stage.near_origin import moved_near
 from ...stage.open_model import view_document
-from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
+from ...stage.viewed_thing import settings_for
 from .thumbnails import shrunk
 
 #: Files above this size in bytes have no thumbnail.
@@ -115,7 +115,7 @@ def _draw_model(path: str, size: int) -> NDArray[np.uint8]:
     with read_source(path) as source:
         document = document_of(source, None, split=True)
     viewed = moved_near(view_document(document, path))
-    settings = Settings({}, look="studio")
+    settings = settings_for(path, "studio")
     quality = {"samples": 4, "antialiasing": "msaa", "threads": 1}
     with ViewRenderer(viewed, settings, (size, size), **quality) as view_renderer:
         view = view_renderer.view()

@@ -22,6 +22,7 @@ from ...base.linalg.vectors import as_vectors
 from ...choices import Backend
 from ...errors import InvalidArgumentError
 from ...rendering.canvas import Canvas
+from ...stage.look import LookChoice, check_look
 from .opening import SheetSource, open_sources
 from .page import draw_pages
 from .panels import Panel
@@ -196,6 +197,7 @@ def contact_sheet(
     up: str | None = None,
     unit: str | None = None,
     root: str | os.PathLike[str] | None = None,
+    look: LookChoice = "studio",
     backend: Backend = "auto",
     threads: int = 0,
 ) -> Sheet:
@@ -223,6 +225,8 @@ def contact_sheet(
         The unit of lengths; by default the file's unit, if its format has one.
     root : path-like, optional
         As in `load_mesh`, for models that are files.
+    look : {"studio", "plain"} or Look
+        Of the pictures; drawings stand on paper.
     backend, threads
         As for `Renderer`; the bytes are the same.
 
@@ -242,7 +246,7 @@ def contact_sheet(
     specs = check_views(views, sections)
     opened = open_sources(models, root=root)
     drawing = {"backend": backend, "threads": threads}
-    pages = draw_pages(opened, specs, size, up, unit, drawing)
+    pages = draw_pages(opened, specs, size, up, unit, drawing, check_look(look))
     report = {
         "version": VERSION,
         "size": [pages.canvas.width, pages.canvas.height],

@@ -51,7 +51,7 @@ def _open(source: Any, options: dict[str, Any]) -> ViewedScene:
         scene = Scene()
         scene.add(source, name=source.name)
         title = printable(source.name) or "mesh"
-        return ViewedScene(scene, title, themed=True, appearance={"cull": "auto"})
+        return ViewedScene(scene, title, themed=True)
     if not isinstance(source, (str, os.PathLike)) and not hasattr(source, "read"):
         raise InvalidArgumentError(
             f"a model is a path, a Mesh or a Scene, not {type(source).__name__}"

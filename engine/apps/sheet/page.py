@@ -14,6 +14,7 @@ from ...errors import InvalidArgumentError, printable
 from ...model.scene.cameras import Camera
 from ...rendering.canvas import Canvas, text_size
 from ...rendering.support_functions import support_of_box, support_of_scene
+from ...stage.look import Look
 from ...stage.viewed_scene import ViewedScene
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from . import marks
@@ -52,6 +53,7 @@ def draw_pages(
     up: str | None,
     unit: str | None,
     drawing: Mapping[str, Any],
+    look: Look,
 ) -> Pages:
     """Draw all models; see `engine3d.sheets.contact_sheet`."""
     if up is not None and up not in UP_DIRECTIONS:
@@ -73,7 +75,7 @@ def draw_pages(
         if len(models) == 1:
             columns = 2 if len(specs) == 4 else None
         page = _Page(canvas, area, model, up or model.up, unit)
-        drawn, report = page.draw(specs, columns, drawing)
+        drawn, report = page.draw(specs, columns, drawing, look)
         panels.append(drawn)
         reports.append(report)
     return Pages(canvas, panels, reports)
@@ -91,11 +93,13 @@ class _Page:
         large = area.height >= _LARGE and area.width >= _WIDE
         self._text = 2 if large else 1
 
-    def draw(self, specs, columns: int | None, drawing) -> tuple[list[Panel], dict[str, Any]]:
+    def draw(
+        self, specs, columns: int | None, drawing, look: Look
+    ) -> tuple[list[Panel], dict[str, Any]]:
         scene, text = self._model.scene, self._text
         cameras = [node for node in scene.nodes if isinstance(node.object, Camera)]
         self._check_cameras(specs, cameras)
-        studio = PanelRenderer(self._model, self._up, drawing)
+        studio = PanelRenderer(self._model, self._up, drawing, look)
         alone = AloneScene(scene)
         extents = self._extents(studio, specs)
         x, y, width, height = self._area

@@ -1,4 +1,4 @@
-"""Renders the panels of a sheet: drawings on paper, and pictures in the studio look."""
+"""Renders the panels of a sheet: drawings on paper, and pictures in a look."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ...choices import FrameCull
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
@@ -17,8 +18,9 @@ from ...rendering.renderer import Renderer
 from ...stage.appearance import count_points, point_size
 from ...stage.blank import Sight
 from ...stage.chosen_surroundings import Surroundings
-from ...stage.lighting import Lighting
-from ...stage.overlays.theme import LIGHT, Theme
+from ...stage.lighting import NO_LIGHTS, Lighting
+from ...stage.look import THEMED, Look
+from ...stage.overlays.theme import DARK, LIGHT, Theme
 from ...stage.scene_bounds import sphere_of_box
 from ...stage.studio import Studio, theme_for
 from ...stage.viewed_scene import ViewedScene
@@ -42,6 +44,8 @@ class PanelRenderer:
         A key of `UP_DIRECTIONS`.
     drawing : Mapping
         ``backend`` and ``threads`` of `Renderer`.
+    look : Look
+        That of pictures.
 
     Attributes
     ----------
@@ -59,7 +63,10 @@ class PanelRenderer:
     paper: Theme = LIGHT
     stage_theme: Theme = LIGHT
 
-    def __init__(self, viewed: ViewedScene, up: str, drawing: Mapping[str, Any]) -> None:
+    def __init__(
+        self, viewed: ViewedScene, up: str, drawing: Mapping[str, Any], look: Look
+    ) -> None:
+        self._look = look
         self.scene = viewed.scene
         self.up = UP_DIRECTIONS[up]
         self.bounds = np.array(self.scene.bounds, np.float64)
@@ -70,16 +77,18 @@ class PanelRenderer:
         )
         self._options = {"samples": _SAMPLES, "antialiasing": "msaa", **drawing}
         self._drawing = dict(drawing)
-        self._cull = viewed.appearance.get("cull", "back")
+        self._cull = viewed.appearance.get("cull", "auto")
         self._points = count_points(self.scene)
         self.has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
         self._renderer: Renderer | None = None
         self.staged = StagedScene(self.scene)
-        Surroundings().put(self.staged)
+        Surroundings().put(self.staged, look.environment)
         self.staged.fog = None
-        self._lighting = Lighting(self.staged, self.up)
-        self._lighting.choose("studio")
-        self._studio = Studio(self.staged, self.up, self.staged.environment is None)
+        first = look.lights or NO_LIGHTS
+        self._lighting = Lighting(self.staged, self.up, look.light_intensity, first)
+        self._lighting.choose(first)
+        is_lit = look.lights is not None and self.staged.environment is None
+        self._studio = Studio(self.staged, self.up, is_lit)
 
     def __enter__(self) -> PanelRenderer:
         return self
@@ -97,7 +106,9 @@ class PanelRenderer:
         self._lighting.follow(pose)
         with Renderer(*_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
-        self.stage_theme = theme_for(color)
+        themes = {"dark": (DARK,), "light": (LIGHT,)}
+        chosen = self._look.background if isinstance(self._look.background, str) else ""
+        self.stage_theme = theme_for(color, themes.get(chosen, (LIGHT, DARK)))
         if not self.has_faces:
             self.paper = self.stage_theme
 
@@ -119,27 +130,39 @@ class PanelRenderer:
         rectangle : Rectangle
             Its size counts.
         on_stage : bool
-            Draw it in the studio look, on its shadow, rather than on paper.
+            Draw it in its look rather than on paper.
         azimuth : float
             From where it is looked at then, in radians.
         both_sides : bool
             Whether all faces show both sides.
         """
         self._lighting.follow(pose)
-        options: dict[str, Any] = {"tone_mapping": "neutral"}
+        options: dict[str, Any] = {"tone_mapping": self._look.tone_mapping}
         if both_sides:
             options["cull"] = "none"
         if on_stage:
-            cull = options.get("cull", self._cull)
-            self._studio.lay_shadow(self.sphere, azimuth, cull, (*pose[:3, 2], 0.0))
-            options["ambient_occlusion"] = True
+            self._lay_ground(pose, azimuth, options.get("cull", self._cull))
+            options["ambient_occlusion"] = self._look.ambient_occlusion
             options["ambient_occlusion_radius"] = _OCCLUSION * self.sphere.radius
         else:
             self._studio.show_shadow(False)
-        ground = self.stage_theme.gradient if on_stage else self.paper.background
-        self.staged.background = ground
+        self.staged.background = self._backdrop if on_stage else self.paper.background
         outputs = OUTPUTS if on_stage else (*OUTPUTS, "world_normal")
         return self.render(camera, pose, rectangle, outputs=outputs, **options)
+
+    def _lay_ground(self, pose: np.ndarray, azimuth: float, cull: FrameCull) -> None:
+        """Draw the shadow on the ground, if the look has one."""
+        if self._look.ground:
+            self._studio.lay_shadow(self.sphere, azimuth, cull, (*pose[:3, 2], 0.0))
+
+    @property
+    def _backdrop(self) -> Any:
+        """The background of pictures."""
+        background = self._look.background
+        if isinstance(background, str):
+            is_own = background not in THEMED
+            return self.scene.background if is_own else self.stage_theme.gradient
+        return background
 
     def options(self, rectangle: Rectangle, *, both_sides: bool) -> dict[str, Any]:
         """Return the options that draw the same pixels: ``cull``, ``backend`` and so on."""

@@ -22,11 +22,12 @@ from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...rendering.canvas import Canvas
 from ...rendering.frame import Frame
+from ...stage.look import LookChoice
 from ...stage.numbers import MarkKeywords, Marks, take_marks
 from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
 from ...stage.viewed_scene import TURN_SECONDS, ViewedScene
-from ...stage.viewed_thing import viewed_thing
+from ...stage.viewed_thing import settings_for, viewed_thing
 from ...stage.views.first_view import view_of_scene
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
@@ -47,7 +48,8 @@ def show(
     *,
     size: tuple[int, int] | None = None,
     title: str | None = None,
-    up: str = "+Y",
+    look: LookChoice = "studio",
+    up: str | None = None,
     update: Callable[[float], None] | None = None,
     period: float = TURN_SECONDS,
     format: PixelFormat | None = None,
@@ -62,15 +64,18 @@ def show(
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
-        A node is shown with its subtree and the lights in it. The first view of a scene is its
-        camera's, if it has one. Arrays are as for `Window.present`.
+    thing : path, Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
+        A file of a model is opened as by ``engine3d run``. A node is shown with its subtree and the
+        lights in it. The first view of a scene is its camera's, if it has one. Arrays are as for
+        `Window.present`.
     size : (int, int), optional
         Width and height of the window in pixels; by default 1280x720, or fitted to the picture.
     title : str, optional
         Text of the title bar.
-    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
-        The up direction of a scene.
+    look : {"studio", "plain"} or Look
+        As for `Renderer`; pictures have none.
+    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}, optional
+        The up direction of a scene; by default +Y, or that of the file.
     update : callable, optional
         Called with the time in seconds before each picture of a scene, to move its nodes:
         ``animator.seek``, or your own function. It plays from the start; Space pauses it. By
@@ -97,7 +102,7 @@ def show(
     """
     refuse_unknown("show", marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
     try:
-        _show(thing, size, title, up, update, period, format, take_marks(dict(marks)))
+        _show(thing, size, title, look, up, update, period, format, take_marks(dict(marks)))
     except DisplayError as error:
         if not _in_a_kernel():
             raise
@@ -113,9 +118,12 @@ def _in_a_kernel() -> bool:
     return shell is not None and hasattr(shell.get_ipython(), "kernel")
 
 
-def _show(thing, size, title, up, update, period, format, marks: Marks) -> None:
+def _show(thing, size, title, look, up, update, period, format, marks: Marks) -> None:
     size = None if size is None else check_size(size)
-    viewed = viewed_thing(thing, title=title, up=up, update=update, period=period, marks=marks)
+    settings = settings_for(thing, look, marks=marks)
+    viewed = None
+    if not isinstance(thing, np.ndarray):
+        viewed = viewed_thing(thing, title=title, up=up, update=update, period=period, marks=marks)
     if viewed is None:
         if not isinstance(thing, (Frame, Canvas, np.ndarray, Sequence)):
             raise InvalidArgumentError(
@@ -123,12 +131,11 @@ def _show(thing, size, title, up, update, period, format, marks: Marks) -> None:
             )
         _show_picture(thing, size, title, format)
         return
-    _show_scene(viewed, size, marks)
+    _show_scene(viewed, settings, size)
 
 
-def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None, marks: Marks) -> None:
+def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] | None) -> None:
     size = size or SIZE
-    settings = Settings({}, bar=marks.bar, axes_grid=marks.axes_grid)
     with (
         Window(*size, f"{viewed.title} - engine3d") as window,
         ViewRenderer(viewed, settings, size) as view_renderer,

@@ -145,7 +145,7 @@ class Visibility:
         matrix = _moved(projection, _OFFSETS[place], renderer.width, renderer.height)
         if not np.array_equal(camera.matrix, matrix):
             camera.matrix = matrix
-        options = RenderOptions(outputs=names)
+        options = RenderOptions(cull="back", outputs=names)
         frames[place] = frame = renderer.render(
             self._scene, (camera, pose), out=frames[place], options=options
         )
@@ -156,7 +156,8 @@ class Visibility:
         """Return z_ndc at pixel centres, (H, W) float32, infinite for background."""
         camera = self._cameras[-1]
         camera.matrix = projection
-        return renderer.render(self._scene, (camera, pose), outputs=("ndc_depth",)).ndc_depth
+        options = {"cull": "back", "outputs": ("ndc_depth",)}
+        return renderer.render(self._scene, (camera, pose), **options).ndc_depth
 
 
 def _moved(projection: np.ndarray, offset, width: int, height: int) -> np.ndarray:

@@ -204,7 +204,9 @@ def _pictures(
             pose = np.eye(4)
             pose[:3, :3] = _axes(direction).T
             pose[:3, 3] = center + direction * (2.0 * radius)
-            frame = renderer.render(scene, (camera, pose), mode="unlit", outputs=outputs)
+            frame = renderer.render(
+                scene, (camera, pose), mode="unlit", cull="back", outputs=outputs
+            )
             covered = (frame.object_id >= 0).astype(np.float64)
             count = _summed(covered)
             share = np.where(count > 0, count, 1.0)[..., np.newaxis]

@@ -46,6 +46,8 @@ def load_mesh(
 ) -> Mesh:
     """Load a model as one mesh with its materials, in the file's coordinates.
 
+    Its axes and unit are those of the file, whatever they are: `load` turns files upright.
+
     Parameters
     ----------
     path : str, path-like, bytes, binary file object or Traversable

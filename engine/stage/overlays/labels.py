@@ -9,12 +9,12 @@ from collections.abc import Callable
 
 from ...rendering.frame import Frame
 from ..staging import Staging
-from ..views.viewpoint import Viewpoint
+from ..views.camera_view import AnyView
 
 
 def draw_labels(
     frame: Frame,
-    view: Viewpoint,
+    view: AnyView,
     staging: Staging,
     split: bool,
     text_scale: Callable[[Frame], int],
@@ -24,7 +24,7 @@ def draw_labels(
     Parameters
     ----------
     frame : Frame
-    view : Viewpoint
+    view : Viewpoint or CameraView
         The viewpoint that it was drawn from.
     staging : Staging
     split : bool

@@ -11,7 +11,7 @@ from itertools import zip_longest
 from typing import Any
 
 from ...rendering.canvas import Canvas, text_size
-from ..views.viewpoint import Viewpoint
+from ..views.camera_view import AnyView
 from .draw_counts import count_names, count_table, told_tests
 from .frame_times import FrameTimes
 from .theme import DARK, Theme
@@ -165,7 +165,7 @@ def _in_two_columns(entries: list[str]) -> list[str]:
     return ["   ".join(pair).rstrip() for pair in pairs]
 
 
-def draw_axes(canvas: Canvas, view: Viewpoint, scale: int | None = None) -> None:
+def draw_axes(canvas: Canvas, view: AnyView, scale: int | None = None) -> None:
     """Draw the world's axes, as seen by the camera, in the bottom left corner."""
     scale = scale or text_scale(canvas)
     length = AXIS_LENGTH * scale

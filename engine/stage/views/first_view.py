@@ -10,7 +10,7 @@ from ...model.scene.nodes import Node
 from ..near_origin import from_file
 from ..view_renderer import ViewRenderer
 from ..viewed_scene import NotInModelError
-from .viewpoint import DEFAULT_YFOV, Viewpoint, look_through
+from .viewpoint import Viewpoint, look_through
 
 Vector = tuple[float, float, float]
 
@@ -21,8 +21,8 @@ class FirstView:
 
     Attributes
     ----------
-    yfov : float
-        Vertical field of view in radians.
+    yfov : float or None
+        Vertical field of view in radians; None gives the longer side 38 degrees.
     azimuth, elevation : float
         Added to the model's own view, in radians.
     zoom : float
@@ -36,7 +36,7 @@ class FirstView:
         The model's camera to look through; overrides all other settings.
     """
 
-    yfov: float = DEFAULT_YFOV
+    yfov: float | None = None
     azimuth: float = 0.0
     elevation: float = 0.0
     zoom: float = 1.0

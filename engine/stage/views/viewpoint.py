@@ -20,7 +20,7 @@ from ...errors import InvalidArgumentError
 from ...model.scene.cameras import OrthographicCamera, PerspectiveCamera
 from ...model.scene.nodes import Node
 from ...model.scene.orbiting import home_axes, orbit_axes
-from ...rendering.framing import fit_frustum, frustum_reach
+from ...rendering.framing import LENS, fit_frustum, frustum_reach
 from ...rendering.support_functions import SupportFunction, support_of_points
 from .free_region import NOTHING, Taken, sheared
 
@@ -33,7 +33,8 @@ UP_DIRECTIONS = {
     "+Z": (0.0, 0.0, 1.0),
     "-Z": (0.0, 0.0, -1.0),
 }
-DEFAULT_YFOV = math.radians(35.0)
+#: The vertical field of view in scenes to walk in.
+WALKING_YFOV = math.radians(35.0)
 #: Three-quarter view from the right and slightly above: shows three sides of most models.
 DEFAULT_AZIMUTH = math.radians(30.0)
 DEFAULT_ELEVATION = math.radians(18.0)
@@ -81,7 +82,7 @@ class Viewpoint:
     azimuth: float = DEFAULT_AZIMUTH
     elevation: float = DEFAULT_ELEVATION
     up: tuple[float, float, float] = UP_DIRECTIONS["+Y"]
-    yfov: float = DEFAULT_YFOV
+    yfov: float = LENS
     orthographic: bool = False
 
     def copy(self) -> Viewpoint:

@@ -17,7 +17,7 @@ from ..one_by_one import draw_each, tried
 from ..options import scene_options
 from ..options import shared_options as options
 from ..options.input_options import STANDARD_INPUT, jobs
-from ..options.picture_options import PICTURES
+from ..options.picture_options import PICTURE
 from ..outputs import (
     STANDARD_OUTPUT,
     TERMINAL,
@@ -71,7 +71,7 @@ def _render(args: argparse.Namespace) -> int:
     report.loaded(viewed)
     how = options.viewing(args)
     with how.renderer(
-        viewed, DEFAULT_SIZE, PICTURES[args.look], report, transparent=args.no_background
+        viewed, DEFAULT_SIZE, PICTURE, report, transparent=args.no_background
     ) as view_renderer:
         view = how.first_view.place(view_renderer, turns=args.turntable is not None)
         if _count(args) is not None:

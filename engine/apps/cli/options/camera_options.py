@@ -56,7 +56,7 @@ def add_camera(parser) -> None:
         "--camera-yfov",
         type=values.yfov,
         metavar="DEGREES",
-        help="vertical field of view",
+        help="vertical field of view; by default the longer side of the picture has 38 degrees",
     )
     group.add_argument(
         "--camera-azimuth-angle",
@@ -90,14 +90,14 @@ def add_camera(parser) -> None:
 
 def first_view(args: argparse.Namespace) -> FirstView:
     """Return the first view that the options describe."""
-    from ....stage.views.first_view import DEFAULT_YFOV, FirstView
+    from ....stage.views.first_view import FirstView
 
     angle, index, position = args.camera_yfov, args.camera_index, args.camera_position
     through = index is not None and index >= 0
     if not through and position is not None and position == args.camera_focal_point:
         raise UsageError("--camera-position and --camera-focal-point are the same")
     return FirstView(
-        yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
+        yfov=None if angle is None else math.radians(angle),
         azimuth=math.radians(args.camera_azimuth_angle or 0.0),
         elevation=math.radians(args.camera_elevation_angle or 0.0),
         zoom=args.camera_zoom_factor or 1.0,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import get_args
 
-from ....choices import Backend, Samples
+from ....choices import Backend, LookName, Samples
 from .. import values
 from ..usage import UsageError
 
-#: Default antialiasing method and samples of pictures and turntables, by look.
-PICTURES = {"studio": ("msaa", 4), "plain": ("ssaa", 1)}
+#: Default antialiasing method and samples of pictures and turntables.
+PICTURE = ("msaa", 4)
 #: The antialiasing of a window, whose samples depend on the time (apps/viewer/sampling.py).
 WINDOW = "msaa"
 #: The default samples of an explicitly chosen method.
@@ -17,7 +17,7 @@ USUAL = 4
 _NONE = "none"
 _SUPERSAMPLES = (1, 4, 16)
 #: The looks of models; the first is the default.
-LOOKS = tuple(PICTURES)
+LOOKS = get_args(LookName)
 BACKENDS = get_args(Backend)
 
 
@@ -52,8 +52,8 @@ def add_picture(parser) -> None:
         choices=LOOKS,
         default=LOOKS[0],
         help="studio, the default: models stand on their shadow before a gradient, in soft light, "
-        "with ambient occlusion, neutral tone mapping and 4 samples per pixel; plain: before one "
-        "colour, with none of these. Other options have the last word",
+        "with ambient occlusion and neutral tone mapping; plain: with none of these, lit from the "
+        "camera, before black. Other options have the last word",
     )
     _add_antialiasing(group)
     add_drawing(group)

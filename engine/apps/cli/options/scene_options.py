@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from ...scenes import DEMO_NAMES, SCENES
 from .. import values
@@ -11,6 +12,9 @@ from ..outputs import not_the_output
 from ..usage import UsageError
 from . import scalar_options
 from .input_options import add_inputs, check_inputs, model_files
+
+if TYPE_CHECKING:
+    from ....model.materials.material import Material
 
 #: Options about reading or dressing models, which built-in scenes do not have.
 OF_MODELS = (
@@ -65,8 +69,8 @@ def add(parser) -> None:
         "--color",
         type=values.color,
         metavar="COLOR",
-        help="colour for a model without materials, or for what in a scene has no texture and "
-        "does not glow",
+        help="colour of the whole model, instead of its materials and colours; with --texture, of "
+        "what has no materials; of a scene, of what has no texture and does not glow",
     )
     group.add_argument(
         "--animation-index",
@@ -159,6 +163,16 @@ def opening(args: argparse.Namespace) -> dict:
         "variant": _variant(args.variant),
         "animation": _animation(args),
     }
+
+
+def paint(args: argparse.Namespace) -> Material | None:
+    """Return the material that replaces all of a model's own; None keeps them."""
+    is_dressed = args.texture is not None or scalar_options.coloring(args) is not None
+    if args.color is None or not args.models or is_dressed:
+        return None
+    from ....model.materials.material import Material
+
+    return Material(color=args.color)
 
 
 def _variant(given: str | None) -> str | int | None:

@@ -18,6 +18,7 @@ from . import (
     light_options,
     picture_options,
     scalar_options,
+    scene_options,
 )
 
 if TYPE_CHECKING:
@@ -130,6 +131,7 @@ def settings(args: argparse.Namespace, **more) -> Settings:
         raise UsageError("--near must be less than --far")
     return Settings(
         look=args.look,
+        material=scene_options.paint(args),
         appearance=appearance_options.appearance_of(args),
         up=args.up,
         background=environment_options.background(args),

@@ -1,0 +1,155 @@
+"""The stages of the things that a renderer drew last, so that the next picture stages none anew.
+
+In: things, and how they are drawn. Out: a `ViewRenderer` and the first view of each, the same ones
+until the thing changes.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import OrderedDict
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..base.files.stamps import FileState
+from ..errors import InvalidArgumentError
+from ..io.reading.linked_files import found_files
+from ..io.resources import versions_of
+from ..model.geometry.mesh import Mesh
+from ..model.materials.material import Material
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.scene import Scene
+from ..model.scene.surroundings import SCENE_VALUES
+from ..model.scene.usage import uses_in
+from ..rendering.renderer import Renderer
+from .coloring import show_numbers
+from .look import Look
+from .numbers import NO_MARKS, Marks
+from .view_renderer import ViewRenderer
+from .viewed_thing import settings_for, viewed_of
+from .views.first_view import FirstView
+from .views.viewpoint import Viewpoint
+
+#: Number of stages that a renderer keeps.
+KEPT = 4
+
+
+class Stage(NamedTuple):
+    """A staged thing.
+
+    Attributes
+    ----------
+    thing : object
+        It is held, so that no other thing gets its identity.
+    state : tuple or None
+        Of the thing when it was staged; None if changes cannot be noticed.
+    view_renderer : ViewRenderer
+    first : Viewpoint
+        Its first view, as of ``engine3d render``.
+    """
+
+    thing: Any
+    state: tuple[Any, ...] | None
+    view_renderer: ViewRenderer
+    first: Viewpoint
+
+
+class KeptStages:
+    """The last stages of a renderer.
+
+    Parameters
+    ----------
+    renderer : Renderer
+        Draws them.
+    look : Look
+    material : Material or None
+    drawing : Mapping
+        Other options of `Renderer`, for small pictures.
+    """
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        look: Look,
+        material: Material | None,
+        drawing: Mapping[str, Any],
+    ) -> None:
+        self._renderer = renderer
+        self._look, self._material, self._drawing = look, material, drawing
+        self._kept: OrderedDict[Any, Stage] = OrderedDict()
+
+    def stage_of(self, thing: Any, options: Mapping[str, Any], marks: Marks = NO_MARKS) -> Stage:
+        """Return the stage of a thing that is drawn with some options; with marks always a new one.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError, InvalidArgumentError
+        """
+        if isinstance(thing, (str, os.PathLike)):
+            thing = os.fspath(thing)
+        if marks.shows_any:
+            return self._staged(thing, options, marks)
+        identity = thing if isinstance(thing, (str, bytes)) else id(thing)
+        key = identity, tuple(sorted(options.items()))
+        known = self._kept.get(key)
+        if known is None or known.state is None or known.state != _state_of(thing, known.state):
+            known = self._kept[key] = self._staged(thing, options, NO_MARKS)
+        self._kept.move_to_end(key)
+        while len(self._kept) > KEPT:
+            self._kept.popitem(last=False)
+        return known
+
+    def forget(self) -> None:
+        """Drop all stages."""
+        self._kept.clear()
+
+    @np.errstate(all="ignore")
+    def _staged(self, thing: Any, options: Mapping[str, Any], marks: Marks) -> Stage:
+        files: dict[str, FileState] = {}
+        if isinstance(thing, str):
+            files[thing] = FileState(thing)
+        with found_files(lambda path: files.setdefault(path, FileState(path))):
+            viewed = viewed_of(thing)
+        if viewed is None:
+            raise InvalidArgumentError(
+                "a path, a scene, a node, a mesh or points can be drawn, "
+                f"not {type(thing).__name__}"
+            )
+        show_numbers(viewed, marks)
+        settings = settings_for(thing, self._look, options, self._material, marks)
+        size = self._renderer.width, self._renderer.height
+        view_renderer = ViewRenderer(
+            viewed,
+            settings,
+            size,
+            samples=self._renderer.samples,
+            renderer=self._renderer,
+            **self._drawing,
+        )
+        first = FirstView().place(view_renderer, turns=False)
+        return Stage(thing, _state_of(thing, (files,)), view_renderer, first)
+
+
+def _state_of(thing: Any, known: tuple[Any, ...]) -> tuple[Any, ...] | None:
+    """Return the state of a thing, which differs after a change; None where none would show.
+
+    Parameters
+    ----------
+    thing : object
+    known : tuple
+        The state before; of a path, the states of its files.
+    """
+    if isinstance(thing, str):
+        return known if not any(file.changed() for file in known[0].values()) else ()
+    if isinstance(thing, Mesh):
+        return versions_of(thing)
+    if isinstance(thing, InstancedMesh):
+        return (thing.version, *versions_of(thing.mesh))
+    if isinstance(thing, Scene):
+        thing.data.update()
+        values = tuple(getattr(thing, name) for name in SCENE_VALUES)
+        used = tuple((id(one), one.version) for one in uses_in([thing]))
+        return thing.data.census(), thing.data.arrays.changes, values, used
+    return None

@@ -1,0 +1,159 @@
+"""Looks: how models are lit, and what they stand before.
+
+In: a name, or a `Look` with some values replaced. Out: an immutable `Look`, which `Staging` applies
+beside a scene that has no light of its own.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, fields
+from typing import Any, TypeAlias, get_args
+
+from ..base.calls import refuse_unknown
+from ..base.numbers import shown
+from ..base.validation import choose, flag, not_negative
+from ..choices import Backdrop, ColorLike, LightSetup, LookName, ToneMapping
+from ..errors import InvalidArgumentError
+from ..model.environments.environment import Environment
+from ..model.materials.colors import check_color
+from ..model.scene.gradients import Gradient
+
+LOOKS: tuple[LookName, ...] = get_args(LookName)
+#: Backgrounds in the colours of a theme.
+THEMED: tuple[str, ...] = ("auto", "dark", "light")
+_BACKDROPS = get_args(Backdrop)
+_TONE_MAPPINGS = get_args(ToneMapping)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """How models are lit, and what they stand before.
+
+    `Look.studio`, whose values are the defaults, and `Look.plain` make looks; `replace` returns
+    another one with other values. Looks are immutable, and can be compared, hashed, copied and
+    pickled.
+
+    Attributes
+    ----------
+    lights : {"studio", "headlight", "sun", "two colours"} or None
+        A set of lights, most of which follow the camera, and soft light from above and below. With
+        None, a white light shines from the camera, and the scene's own ambient light stays.
+    light_intensity : float
+        Factor on the intensities of these lights.
+    background : {"auto", "dark", "light", "scene"}, colour, Gradient, Environment or None
+        ``"dark"`` and ``"light"`` are gradients, of which ``"auto"`` takes the one that the model
+        contrasts with; ``"scene"`` is the scene's own; None is transparent.
+    ground : bool
+        Whether the model casts a soft shadow on an invisible ground.
+    environment : bool
+        Whether physically based materials reflect `Environment.studio` if the scene has no
+        environment.
+    tone_mapping, ambient_occlusion
+        As in `RenderOptions`.
+    """
+
+    lights: LightSetup | None = "studio"
+    light_intensity: float = 1.0
+    background: Backdrop | ColorLike | Gradient | Environment | None = "auto"
+    ground: bool = True
+    environment: bool = True
+    tone_mapping: ToneMapping = "neutral"
+    ambient_occlusion: bool = True
+
+    def __post_init__(self) -> None:
+        if self.lights is not None:
+            choose(self.lights, get_args(LightSetup), "lights")
+        not_negative(self.light_intensity, "light_intensity")
+        choose(self.tone_mapping, _TONE_MAPPINGS, "tone_mapping")
+        for name in ("ground", "environment", "ambient_occlusion"):
+            flag(getattr(self, name), name)
+        vars(self)["background"] = _background(self.background)
+
+    @classmethod
+    def studio(cls, **changes: Any) -> Look:
+        """Return the default look: three soft lights, a shadow on the ground, a gradient.
+
+        Parameters
+        ----------
+        **changes
+            Attributes with other values.
+
+        Raises
+        ------
+        InvalidArgumentError
+
+        Examples
+        --------
+        >>> e3d.render(e3d.torus(), look=e3d.Look.studio(ground=False, background="dark"))
+        """
+        return _STUDIO.replace(**changes)
+
+    @classmethod
+    def plain(cls, **changes: Any) -> Look:
+        """Return the look that adds nothing: a light at the camera, and the scene's background.
+
+        Parameters
+        ----------
+        **changes
+            Attributes with other values.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        return _PLAIN.replace(**changes)
+
+    def replace(self, **changes: Any) -> Look:
+        """Return this look with other values of some attributes.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        refuse_unknown("Look", changes, [one.name for one in fields(Look)])
+        return dataclasses.replace(self, **changes)
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The drawing options of the look, as keyword arguments of `Renderer.render`."""
+        return {"tone_mapping": self.tone_mapping, "ambient_occlusion": self.ambient_occlusion}
+
+
+#: What callers may give as a look.
+LookChoice: TypeAlias = LookName | Look
+
+
+def check_look(value: LookChoice) -> Look:
+    """Return the look that a name stands for; a `Look` is returned unchanged.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    if isinstance(value, Look):
+        return value
+    if not isinstance(value, str) or value not in LOOKS:
+        names = ", ".join(f'"{name}"' for name in LOOKS)
+        raise InvalidArgumentError(f"look must be {names} or a Look, not {shown(value)}")
+    return {"studio": _STUDIO, "plain": _PLAIN}[value]
+
+
+def _background(value: Any) -> Any:
+    """Return a background, checked."""
+    if value is None or isinstance(value, (Gradient, Environment)):
+        return value
+    if isinstance(value, str) and value in _BACKDROPS:
+        return value
+    return check_color(value, "background")
+
+
+_STUDIO = Look()
+_PLAIN = Look(
+    lights=None,
+    background="scene",
+    ground=False,
+    environment=False,
+    tone_mapping="none",
+    ambient_occlusion=False,
+)

@@ -23,7 +23,7 @@ from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
 from ..stage.look import LookChoice
-from ..stage.numbers import MarkKeywords, take_marks
+from ..stage.overlays.numbers import MarkKeywords, take_marks
 from ..stage.view_renderer import ViewRenderer
 from ..stage.viewed_scene import TURN_SECONDS
 from ..stage.viewed_thing import check_motion, settings_for, viewed_thing

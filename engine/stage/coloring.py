@@ -26,8 +26,8 @@ from ..model.materials.textures import Texture
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose
-from .numbers import DIRECT, MAGNITUDE, Marks, Numbers
 from .overlays.colormaps import MISSING
+from .overlays.numbers import DIRECT, MAGNITUDE, Marks, Numbers
 from .visibility import DRAWABLE, mesh_of
 
 if TYPE_CHECKING:

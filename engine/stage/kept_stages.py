@@ -26,7 +26,7 @@ from ..model.scene.usage import uses_in
 from ..rendering.renderer import Renderer
 from .coloring import show_numbers
 from .look import Look
-from .numbers import NO_MARKS, Marks
+from .overlays.numbers import NO_MARKS, Marks
 from .view_renderer import ViewRenderer
 from .viewed_thing import settings_for, viewed_of
 from .views.first_view import FirstView

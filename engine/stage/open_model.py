@@ -23,7 +23,7 @@ from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
 from .coloring import Coloring
-from .numbers import Numbers
+from .overlays.numbers import Numbers
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 

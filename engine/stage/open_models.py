@@ -24,8 +24,8 @@ from ..model.scene.orbiting import home_axes
 from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose, shown_object
 from .near_origin import moved_near
-from .numbers import Numbers
 from .open_model import color_by, read_model
+from .overlays.numbers import Numbers
 from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS
 

@@ -32,7 +32,7 @@ from ..rendering.options import (
 from .appearance import DARK
 from .kept_stages import KeptStages, Stage
 from .look import Look, LookChoice, check_look
-from .numbers import MarkKeywords, take_marks
+from .overlays.numbers import MarkKeywords, take_marks
 from .painting import check_material
 from .scenes_of_things import is_lit
 from .viewed_thing import is_file
@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from ..rendering.camera_choice import CameraChoice
 
 _PLAIN = Look.plain()
+#: The options of a bare thing, where a stage has others than `RenderOptions`.
 _BARE = {name: getattr(DEFAULTS, name) for name in ("point_size", "line_color")}
 
 
@@ -176,7 +177,7 @@ class Renderer(rendering.Renderer):
             super().prepare(scene, options=options, **keywords)
             return
         chosen, given = _chosen(options, keywords)
-        stage = self._stages.stage_of(scene, self._usual(scene) | given)
+        stage = self._stages.stage_of(scene, (_BARE if self._is_bare(scene) else {}) | given)
         super().prepare(stage.view_renderer.staging.scene, options=chosen)
 
     @shows_options
@@ -260,12 +261,13 @@ class Renderer(rendering.Renderer):
                 scene, camera, out=out, culling_camera=culling_camera, options=options, **named
             )
         chosen, given = _chosen(options, named)
-        stage = self._stages.stage_of(scene, self._usual(scene) | given, marks)
+        is_bare = self._is_bare(scene) and not marks.shows_any
+        stage = self._stages.stage_of(scene, (_BARE if is_bare else {}) | given, marks)
         viewed = stage.view_renderer.viewed
         if culling_camera is not None:
             culling_camera = find_camera(viewed.scene, culling_camera)
         with np.errstate(all="ignore"):
-            view = self._view(stage, scene, camera)
+            view = self._view(stage, scene, camera, is_bare)
             return stage.view_renderer.draw(
                 view, outputs=chosen.outputs, out=out, culling_camera=culling_camera
             )
@@ -291,16 +293,12 @@ class Renderer(rendering.Renderer):
         """Return whether a thing is drawn as a scene would be that holds it."""
         return self._worn == _PLAIN and not is_file(thing)
 
-    def _usual(self, thing: Any) -> dict[str, Any]:
-        """Return the options of a thing where a stage has others than `RenderOptions`."""
-        return _BARE if self._is_bare(thing) else {}
-
-    def _view(self, stage: Stage, thing: Any, camera: CameraChoice) -> AnyView:
+    def _view(self, stage: Stage, thing: Any, camera: CameraChoice, is_bare: bool) -> AnyView:
         """Return the view of a stage: that of a camera, else the thing's first one."""
         view_renderer = stage.view_renderer
         scene = view_renderer.viewed.scene
         found = None if camera is None and is_file(thing) else find_camera(scene, camera)
-        if found is None and self._is_bare(thing):
+        if found is None and is_bare:
             found = frame_scene(scene, aspect=self.width / self.height)
         if found is None:
             return stage.first

@@ -13,8 +13,8 @@ from ..model.scene.scene import Scene
 from .coloring import show_numbers
 from .filtering import Filtering
 from .look import Look, LookChoice, check_look
-from .numbers import NO_MARKS, Marks
 from .open_models import open_models
+from .overlays.numbers import NO_MARKS, Marks
 from .played_clips import play_clips
 from .scenes_of_things import is_lit, scene_of
 from .stage_settings import Settings

@@ -9,9 +9,8 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.apps.cli import main
 from engine3d.errors import InvalidArgumentError
-from engine3d.stage.numbers import take_marks
 from engine3d.stage.overlays.colormaps import MISSING, SIZE, colormap
-from engine3d.stage.overlays.theme import DARK
+from engine3d.stage.overlays.numbers import take_marks
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_thing import viewed_thing
@@ -38,10 +37,7 @@ def cloud():
 
 
 def drawn(thing, **options):
-    scene = e3d.Scene(background=DARK.background)
-    scene.add(thing)
-    look = {"mode": "unlit", "cull": "auto", "size": PICTURE}
-    return e3d.render(scene, **look, **options)
+    return e3d.render(thing, look="plain", mode="unlit", samples=1, size=PICTURE, **options)
 
 
 @pytest.mark.parametrize("format", ["ply", "glb"])

@@ -13,11 +13,11 @@ from engine3d.errors import InvalidArgumentError
 from engine3d.loaders import load_document
 from engine3d.rendering.canvas import Canvas
 from engine3d.stage.coloring import ScalarBar
-from engine3d.stage.numbers import Numbers
 from engine3d.stage.open_model import open_model
 from engine3d.stage.open_models import open_models
 from engine3d.stage.overlays.axes_grid import AxesGrid
 from engine3d.stage.overlays.colormaps import COLORMAPS, MISSING, colormap
+from engine3d.stage.overlays.numbers import Numbers
 from engine3d.stage.overlays.scalar_bar import draw_scalar_bar, place_bar
 from engine3d.stage.overlays.ticks import label, ticks
 from engine3d.stage.stage_settings import Settings

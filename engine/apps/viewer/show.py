@@ -23,7 +23,7 @@ from ...model.scene.scene import Scene
 from ...rendering.canvas import Canvas
 from ...rendering.frame import Frame
 from ...stage.look import LookChoice
-from ...stage.numbers import MarkKeywords, Marks, take_marks
+from ...stage.overlays.numbers import MarkKeywords, take_marks
 from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
 from ...stage.viewed_scene import TURN_SECONDS, ViewedScene
@@ -101,8 +101,10 @@ def show(
     >>> e3d.show(e3d.render(scene, mode="depth"))
     """
     refuse_unknown("show", marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
+    taken = take_marks(dict(marks))
+    motion = {"title": title, "up": up, "update": update, "period": period}
     try:
-        _show(thing, size, title, look, up, update, period, format, take_marks(dict(marks)))
+        _show(thing, size, format, settings_for(thing, look, marks=taken), marks=taken, **motion)
     except DisplayError as error:
         if not _in_a_kernel():
             raise
@@ -118,18 +120,17 @@ def _in_a_kernel() -> bool:
     return shell is not None and hasattr(shell.get_ipython(), "kernel")
 
 
-def _show(thing, size, title, look, up, update, period, format, marks: Marks) -> None:
+def _show(thing, size, format, settings: Settings, **how: Any) -> None:
     size = None if size is None else check_size(size)
-    settings = settings_for(thing, look, marks=marks)
     viewed = None
     if not isinstance(thing, np.ndarray):
-        viewed = viewed_thing(thing, title=title, up=up, update=update, period=period, marks=marks)
+        viewed = viewed_thing(thing, **how)
     if viewed is None:
         if not isinstance(thing, (Frame, Canvas, np.ndarray, Sequence)):
             raise InvalidArgumentError(
                 f"thing must be a scene, a node, a mesh or a picture, not {shown(thing)}"
             )
-        _show_picture(thing, size, title, format)
+        _show_picture(thing, size, how["title"], format)
         return
     _show_scene(viewed, settings, size)
 

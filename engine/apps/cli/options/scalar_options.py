@@ -84,7 +84,7 @@ def coloring(args: argparse.Namespace):
         return None
     if all(getattr(args, name) is None or getattr(args, name) is False for name in COLORING):
         return None
-    from ....stage.numbers import DEFAULT_MAP, MAGNITUDE, Numbers
+    from ....stage.overlays.numbers import DEFAULT_MAP, MAGNITUDE, Numbers
 
     return Numbers(
         args.coloring_array,

@@ -12,12 +12,12 @@ from typing import Any, NamedTuple, TypedDict
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..base.numbers import real, shown
-from ..base.validation import choose, flag
-from ..choices import ValuesOn
-from ..errors import InvalidArgumentError
-from ..model.geometry.values import KINDS, Values
-from .overlays.colormaps import ColormapLike, colormap
+from ...base.numbers import real, shown
+from ...base.validation import choose, flag
+from ...choices import ValuesOn
+from ...errors import InvalidArgumentError
+from ...model.geometry.values import KINDS, Values
+from .colormaps import ColormapLike, colormap
 
 #: Special values of the component.
 MAGNITUDE, DIRECT = -1, -2

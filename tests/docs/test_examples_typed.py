@@ -4,11 +4,11 @@ An editable install is found by import hooks, which type checkers don't run: the
 in which the package lies under its name.
 """
 
-import importlib.util
 import re
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -116,7 +116,7 @@ def sources(tmp_path_factory):
     (folder / "packages" / "engine3d").symlink_to(Path(engine3d.__file__).parent)
     for page in PAGES:
         text = blocks(page)
-        if "import trimesh" in text and importlib.util.find_spec("trimesh") is None:
+        if any(f"import {each}" in text and not find_spec(each) for each in ("pandas", "trimesh")):
             continue
         if text.strip():
             (folder / f"{page.stem}_md.py").write_text(text, encoding="utf-8")
@@ -135,7 +135,7 @@ def cache(request, sources):
 
 
 def run_mypy(folder, monkeypatch, cache):
-    if importlib.util.find_spec("mypy") is None:
+    if find_spec("mypy") is None:
         pytest.skip("mypy is not installed (pip install mypy)")
     monkeypatch.setenv("MYPYPATH", str(folder / "packages"))
     options = [

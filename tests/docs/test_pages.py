@@ -104,8 +104,9 @@ def closing_windows(monkeypatch):
 def test_python_examples_run(page, tmp_path, monkeypatch, closing_windows):
     monkeypatch.chdir(tmp_path)
     names, text = {}, page.read_text(encoding="utf-8")
-    if "import trimesh" in text:
-        pytest.importorskip("trimesh")
+    for package in ("pandas", "trimesh"):
+        if f"import {package}" in text:
+            pytest.importorskip(package)
     for block in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S):
         exec(compile(block, page.name, "exec"), names)
 

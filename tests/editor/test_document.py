@@ -128,7 +128,7 @@ path, copies = sys.argv[1:]
 house = os.path.join(os.path.dirname(path), "house.obj")
 document = SceneDocument.open(path) if path else SceneDocument(e3d.Scene())
 document.scene.add(e3d.load_mesh(house))
-document.do(SetValues([document.scene], {"ambient": (0.5, 0.25, 0.125)}))
+document.do(SetValues([document.scene], {"ambient": e3d.linear(0.5, 0.25, 0.125)}))
 assert Autosave(document, copies).save()
 os.abort()
 """
@@ -143,7 +143,7 @@ def test_what_a_crash_left_behind_is_found_and_recovered(folder, tmp_path, has_f
     (copy,) = left_behind(copies)
     assert copy.document == (path or None)
     document = SceneDocument.recover(copy)
-    assert document.scene.ambient == (0.5, 0.25, 0.125) and document.is_modified
+    assert document.scene.ambient == e3d.linear(0.5, 0.25, 0.125) and document.is_modified
     assert len(document.scene.nodes[-1].object.faces) > 0
     assert not [line for line in said(document, "warning") if "left out" in line]
     if has_file:

@@ -224,7 +224,8 @@ def materials() -> np.ndarray:
             ball = e3d.uv_sphere(0.46, (96, 48))
             ball.materials = [e3d.Material(**value)]
             scene.add(ball, translation=(column - 2.0, 1.0 - row, 0.0))
-    for angle, color in ((0.5, (0.8, 0.12, 0.03, 0.5)), (-0.5, (0.03, 0.2, 0.8, 0.5))):
+    reddish, bluish = e3d.linear(0.8, 0.12, 0.03, 0.5), e3d.linear(0.03, 0.2, 0.8, 0.5)
+    for angle, color in ((0.5, reddish), (-0.5, bluish)):
         pane = e3d.primitives.quad(
             (-0.65, -1.55, 0), (0.65, -1.55, 0), (0.65, 1.55, 0), (-0.65, 1.55, 0)
         )

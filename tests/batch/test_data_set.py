@@ -9,8 +9,8 @@ FOLDER = Path(__file__).parents[2] / "benchmarks" / "data_set"
 FIRST = {
     "000000.png": "8b6618f7459b23b1",
     "000001.png": "7ce7b61c1daf1345",
-    "000002.png": "89fae05c89d200d2",
-    "000003.png": "8866ac0e43e595a5",
+    "000002.png": "493af268beff1aad",
+    "000003.png": "5044af71f63d04b0",
 }
 
 

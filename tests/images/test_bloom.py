@@ -114,7 +114,7 @@ def test_what_glows():
 
 
 BLACK = (0, 0, 0)
-LAMP, GLASS = (8.0, 4.0, 0.5), (0.0, 6.0, 3.0)
+LAMP, GLASS = e3d.linear(8.0, 4.0, 0.5), e3d.linear(0.0, 6.0, 3.0)
 
 
 def panes(*alphas, **material):
@@ -200,7 +200,7 @@ def test_glass_glows_and_dims():
         if not emissive:
             scene.add(ball)
         for alpha in alphas:
-            shine = (6.0, 6.0, 6.0) if emissive else BLACK
+            shine = e3d.linear(6.0, 6.0, 6.0) if emissive else BLACK
             own = {"alpha_mode": "blend", "emissive": shine}
             glass = pane((0, 0, 0, alpha), size=0.4, **own)
             scene.add(glass, translation=(0, -0.2, 0.5))

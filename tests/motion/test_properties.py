@@ -41,7 +41,8 @@ def test_every_property_changes_and_is_put_back(kind, path):
     keys = np.array([[low] * limits.width, [high] * limits.width])
     if path == "color" and limits.width == 4:
         keys[1, 3] = 1.0
-    channel = e3d.motion.PropertyChannel(thing, path, [0, 2], keys)
+    values = e3d.linear(keys) if limits.is_color else keys
+    channel = e3d.motion.PropertyChannel(thing, path, [0, 2], values)
     player = e3d.AnimationPlayer(e3d.Scene(), [e3d.motion.AnimationClip([channel])])
     player.loop = "once"
     player.play()

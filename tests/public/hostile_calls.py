@@ -494,7 +494,11 @@ CALLS = {
     ),
     "PropertyChannel.interpolation": (
         changing,
-        {"times": [0.0], "values": [((0,) * 4,) * 3], "interpolation": "cubicspline"},
+        {
+            "times": [0.0],
+            "values": e3d.linear(np.zeros((1, 3, 4))),
+            "interpolation": "cubicspline",
+        },
     ),
     "Channel.interpolation": (
         keyed,

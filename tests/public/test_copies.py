@@ -109,7 +109,8 @@ REFUSED = {
     "Window": lambda: e3d.Window(64, 48),
 }
 WITH_NODES = {"RayHit", "ColliderHit"}  # tuples: what holds for their nodes holds for them
-MAY_BE_WRITTEN = {"Canvas", "Frame", "RayHits", "RasterizeResult"}  # their arrays are the caller's
+#: Their arrays are the caller's.
+MAY_BE_WRITTEN = {"Canvas", "Frame", "RayHits", "RasterizeResult", "Values"}
 WAYS = {
     "copy": copy.copy,
     "deepcopy": copy.deepcopy,

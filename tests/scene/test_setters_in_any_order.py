@@ -132,6 +132,12 @@ VALUES = {
         "materials": lambda r, t: pick(r, t.materials, t.materials[::-1]),
         "morph_targets": lambda r, t: [target(r, V) for _ in range(r.integers(0, 3))],
         "groups": lambda r, t: {"g": [0, 1]},
+        "values": lambda r, t: pick(
+            r,
+            {},
+            {"heat": e3d.Values(r.random(V), on="vertices")},
+            {"heat": e3d.Values(r.random((F, 2)), on="faces")},
+        ),
         "name": lambda r, t: pick(r, "", "a"),
         "warnings": lambda r, t: [],
         **{

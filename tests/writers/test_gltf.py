@@ -157,7 +157,7 @@ def test_a_scene_of_our_own_comes_back(tmp_path):
     above = scene.add(name="above", translation=(1, 2, 3))
     scene.add(ball, name="left", parent=above, scale=(1, 2, 3))
     scene.add(ball, name="right", parent=above, rotation=(0, 0, 0.6, 0.8)).visible = False
-    scene.add(e3d.SpotLight((1.0, 1.0, 1.0), 20.0, range=9.0), name="spot")
+    scene.add(e3d.SpotLight(e3d.linear(1.0, 1.0, 1.0), 20.0, range=9.0), name="spot")
     scene.add(e3d.PerspectiveCamera(0.5, zfar=None), name="eye", translation=(0, 0, 9))
     again = saved_and_read(scene, tmp_path / "a.glb")
     check_same_scene(scene, again)

@@ -31,6 +31,5 @@ def transformed_mesh(mesh: Mesh, matrix: ArrayLike) -> Mesh:
         )
     moved = posed_mesh(mesh, pose)
     moved = copy.copy(mesh) if moved is mesh else moved
-    moved._scalars.update(mesh._scalars)
     moved.warnings = list(mesh.warnings)
     return moved

@@ -187,7 +187,8 @@ def eight_bit_or_linear(value: Any, what: str) -> np.ndarray:
     Raises
     ------
     InvalidArgumentError
-        They are not colours, display values beyond 0..1, or integers beyond 0..255.
+        They are a single number or not colours, display values beyond 0..1, or integers beyond
+        0..255.
     """
     if isinstance(value, str):
         raise InvalidArgumentError(
@@ -196,6 +197,8 @@ def eight_bit_or_linear(value: Any, what: str) -> np.ndarray:
     if holds_colors(value):
         return _rows(value, what)
     colors = as_array(value, what)
+    if not colors.ndim:
+        raise InvalidArgumentError(f"{what} must be (N, 3) or (N, 4), got ()")
     if colors.dtype == np.uint8:
         return colors
     if colors.dtype.kind not in "fiu":

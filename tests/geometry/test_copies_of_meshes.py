@@ -66,6 +66,17 @@ def test_a_mesh_that_is_not_moved_is_another_one():
     assert mesh.transformed(np.eye(4)) is not mesh
 
 
+@pytest.mark.parametrize("matrix", [np.eye(4), linalg.scaling((-1, 2, 3))], ids=["stays", "moves"])
+def test_a_transformed_mesh_has_values_of_its_own(matrix):
+    mesh = e3d.box(1.0)
+    mesh.values = {"heat": np.arange(len(mesh.positions)), "load": np.ones(len(mesh.faces))}
+    moved = mesh.transformed(matrix)
+    assert moved.values["heat"].tolist() == mesh.values["heat"].tolist()
+    assert [moved.values.on(name) for name in ("heat", "load")] == ["vertices", "faces"]
+    del moved.values["heat"]
+    assert list(mesh.values) == ["heat", "load"]
+
+
 @pytest.mark.parametrize(
     ("matrix", "told"),
     [

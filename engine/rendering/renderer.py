@@ -20,7 +20,7 @@ from ..model.scene.staged_scene import AnyScene, StagedScene
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
-from ._turn import RendererTurn
+from .turn import RendererTurn
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
 from .camera_choice import CameraChoice

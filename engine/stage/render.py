@@ -78,6 +78,7 @@ def render(
     """
     refuse_unknown("render", options, (*PictureKeywords.__annotations__, *_RENDERER_KEYWORDS))
     width, height = check_size(size)
+    given: Any = options
     with Renderer(
         width,
         height,
@@ -89,4 +90,4 @@ def render(
         samples=samples,
         antialiasing=antialiasing,
     ) as renderer:
-        return renderer.render(scene, camera, **options)
+        return renderer.render(scene, camera, **given)

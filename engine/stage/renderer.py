@@ -19,6 +19,7 @@ from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
 from ..rendering import renderer as rendering
+from ..rendering.turn import RendererTurn
 from ..rendering.camera_choice import find_camera
 from ..rendering.frame import Frame
 from ..rendering.framing import frame_scene
@@ -128,6 +129,7 @@ class Renderer(rendering.Renderer):
             samples=samples,
             antialiasing=antialiasing,
         )
+        self._stage_turn = RendererTurn(self._native)
         self._drawing = {"backend": self.backend, "threads": threads, "antialiasing": antialiasing}
         self._of_thread = threading.local()  # stages are changed by drawing
 
@@ -141,13 +143,16 @@ class Renderer(rendering.Renderer):
 
     def resize(self, width: int, height: int) -> None:
         """Change the size of future frames."""
-        super().resize(width, height)
-        self._of_thread = threading.local()
+        with self._stage_turn.taken():
+            super().resize(width, height)
+            self._of_thread = threading.local()
 
     def close(self) -> None:
         """Free the renderer's memory; frames stay valid. Drawing afterwards raises an error."""
-        super().close()
-        self._of_thread = threading.local()
+        with self._stage_turn.taken(closing=True):
+            super().close()
+            self._of_thread = threading.local()
+            self._stage_turn.let_go()
 
     @shows_options
     def prepare(
@@ -260,13 +265,13 @@ class Renderer(rendering.Renderer):
             return super().render(
                 scene, camera, out=out, culling_camera=culling_camera, options=options, **named
             )
-        chosen, given = _chosen(options, named)
-        is_bare = self._is_bare(scene) and not marks.shows_any
-        stage = self._stages.stage_of(scene, (_BARE if is_bare else {}) | given, marks)
-        viewed = stage.view_renderer.viewed
-        if culling_camera is not None:
-            culling_camera = find_camera(viewed.scene, culling_camera)
-        with np.errstate(all="ignore"):
+        with self._stage_turn.taken(), np.errstate(all="ignore"):
+            chosen, given = _chosen(options, named)
+            is_bare = self._is_bare(scene) and not marks.shows_any
+            stage = self._stages.stage_of(scene, (_BARE if is_bare else {}) | given, marks)
+            viewed = stage.view_renderer.viewed
+            if culling_camera is not None:
+                culling_camera = find_camera(viewed.scene, culling_camera)
             view = self._view(stage, scene, camera, is_bare)
             return stage.view_renderer.draw(
                 view, outputs=chosen.outputs, out=out, culling_camera=culling_camera

@@ -23,6 +23,7 @@ def test_colour_is_the_radiance_mapped(name):
         material = getattr(node.object, "materials", [None])[0]
         plain = material is None or (material.alpha_mode == "opaque" and not material.unlit)
         node.visible = plain and len(getattr(node.object, "lines", ())) == 0
+    scene.exposure = 2.0
     frame = render(scene, size=SIZE, outputs=("color", "radiance"), tone_mapping=name)
     planes = mapped(name, frame.radiance.reshape(-1, 3).T)
     shown = expected_bytes([np.ascontiguousarray(plane) for plane in planes], True)

@@ -28,7 +28,7 @@ def wall(material, turned, light, **around):
 
 def shown(scene, backend="auto"):
     camera = e3d.PerspectiveCamera(0.4), e3d.look_at((0, 0, 4), (0, 0, 0))
-    with e3d.Renderer(*SIZE, backend=backend) as renderer:
+    with e3d.Renderer(*SIZE, look="plain", backend=backend) as renderer:
         return renderer.render(scene, camera).color[..., :3].astype(int)
 
 

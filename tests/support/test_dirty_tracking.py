@@ -50,7 +50,7 @@ def test_python_does_not_look_at_every_mesh():
     counts = []
     for size in (20, 20, 400):  # what is imported at its first use does not count
         scene, meshes = spheres(size)
-        with e3d.Renderer(64, 48, threads=1) as renderer:
+        with e3d.Renderer(64, 48, look="plain", threads=1) as renderer:
             for _ in range(3):
                 renderer.render(scene, VIEW)
             row = [calls_of(renderer.render, scene, VIEW)]

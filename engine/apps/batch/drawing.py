@@ -193,9 +193,10 @@ class Drawer:
     ) -> Reason | None:
         """Return why a picture is blank, or None if it is not."""
         from ...stage.blank import Sight, may_be_blank, why_blank
+        from ...stage.scenes_of_things import is_lit
 
-        if not may_be_blank(frame.stats, scene):
-            return None
+        if is_lit(scene) and not may_be_blank(frame.stats, scene):
+            return None  # else there may be no more than the ground of the look
         look = {name: getattr(options, name) for name in ("cull", "point_size", "size_unit")}
         drawing = {"backend": self._backend, "threads": self._threads}
         return why_blank(Sight(scene, camera, pose, tuple(task.size), look, drawing))

@@ -259,7 +259,7 @@ static __attribute__((noinline)) void light_add_environment(const e3d_environmen
 static inline enum light_variety light_varies(const e3d_lighting *lighting)
 {
     return around_varies(lighting) ? LIGHT_VARIED : lighting->shadows ? LIGHT_SHADOWED
-                                                                       : LIGHT_ALIKE;
+                                                                      : LIGHT_ALIKE;
 }
 
 /* Loads one vector, lit only by ambient light so far; that is the same everywhere, unless it varies. */

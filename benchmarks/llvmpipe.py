@@ -357,7 +357,7 @@ def _light(scene) -> dict:
     light = {name: tuple(_color(value).tolist()) for name, value in values.items()}
     for node in scene.nodes:
         if isinstance(node.object, DirectionalLight):
-            color = _color(node.object.color) * node.object.intensity
+            color = _color(node.object.color) * node.object.intensity / np.pi
             light["sun"] = tuple(color.tolist())
             light["to_sun"] = tuple(linalg.normalize(-node.object.direction).tolist())
     return light
@@ -370,5 +370,5 @@ def _point_lights(scene) -> np.ndarray | None:
         light = node.object
         if isinstance(light, PointLight):
             rows.append([*node.world_pose[:3, 3], light.range])
-            rows.append([*_color(light.color) * light.intensity, 0.0])
+            rows.append([*_color(light.color) * light.intensity / np.pi, 0.0])
     return np.array(rows, np.float32) if rows else None

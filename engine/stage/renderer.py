@@ -19,7 +19,6 @@ from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
 from ..rendering import renderer as rendering
-from ..rendering.turn import RendererTurn
 from ..rendering.camera_choice import find_camera
 from ..rendering.frame import Frame
 from ..rendering.framing import frame_scene
@@ -30,6 +29,7 @@ from ..rendering.options import (
     checked_options,
     shows_options,
 )
+from ..rendering.turn import RendererTurn
 from .appearance import DARK
 from .kept_stages import KeptStages, Stage
 from .look import Look, LookChoice, check_look

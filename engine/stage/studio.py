@@ -34,7 +34,7 @@ from .views.viewpoint import Sphere
 _SKY, _GROUND = linear(0.30, 0.32, 0.36), linear(0.18, 0.17, 0.16)
 #: The required contrast between a model's outline and its background, as mean difference in 8-bit
 #: codes: for faces, which are shaded, and for points and lines, which are all outline.
-_CONTRAST, _THIN_CONTRAST = 5.0, 60.0
+_CONTRAST, _THIN_CONTRAST = 5.0, 100.0
 #: How much farther away the ground is drawn, as a fraction of its distance from the eye.
 BEHIND = 1 / 4
 #: Lines of sight that descend less steeply than this do not show the ground.

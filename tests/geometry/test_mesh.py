@@ -336,7 +336,10 @@ def test_a_joined_mesh_gives_the_picture_of_its_parts():
         apart.add(box, pose=pose)
     joined.add(Mesh.concatenate([box] * 4, poses=poses))
     view = PerspectiveCamera(), look_at((0, 0, 5), (0, 0, 0))
-    pictures = [render(scene, view, size=(96, 72), look="plain").color.astype(int) for scene in (apart, joined)]
+    pictures = [
+        render(scene, view, size=(96, 72), look="plain").color.astype(int)
+        for scene in (apart, joined)
+    ]
     differs = np.abs(pictures[0] - pictures[1]).max(axis=2) > 2  # positions are rounded once more
     assert differs.mean() < 0.01 and pictures[0].std() > 10
 

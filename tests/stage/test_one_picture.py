@@ -271,3 +271,9 @@ def test_the_longer_side_has_one_lens():
     assert np.degrees(e3d.frame_bounds(e3d.torus(), aspect=0.5)[0].yfov) == pytest.approx(38.0)
     with pytest.raises(e3d.InvalidArgumentError, match="not int"):
         e3d.frame_scene(5)
+
+
+@pytest.mark.parametrize("count", [30, 3000])
+def test_white_points_have_a_dark_background(count):
+    points = np.random.default_rng(1).normal(size=(count, 3))
+    assert e3d.render(points, size=(120, 80)).color[0, 0, :3].max() < 160

@@ -1,6 +1,6 @@
-"""Draws the pictures of docs/gallery.md by the programs and commands that stand there.
+"""Draws the pictures of docs/gallery.md, and README.md's first, by the programs that stand there.
 
-In: the page. Out: a picture for each of its sections that has a program or a command, by the name
+In: the pages. Out: a picture for each of its sections that has a program or a command, by the name
 of the file that it writes. A block of Python runs as it is, a block of the shell has commands of
 engine3d; both in an empty folder.
 """
@@ -17,7 +17,8 @@ import numpy as np
 
 from engine3d.apps.cli import main as engine3d
 
-PAGE = Path(__file__).resolve().parents[1] / "gallery.md"
+DOCS = Path(__file__).resolve().parents[1]
+_FIRST = "Five lines\n"
 _BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```", re.M | re.S)
 _SAVED = re.compile(r"\b([\w-]+)\.png\b")
 
@@ -25,7 +26,9 @@ _SAVED = re.compile(r"\b([\w-]+)\.png\b")
 def programs() -> dict[str, list[tuple[str, str]]]:
     """Return the blocks of each section, as (language, text), by the name of its picture."""
     found = {}
-    for section in PAGE.read_text(encoding="utf-8").split("\n## ")[1:]:
+    sections = (DOCS / "gallery.md").read_text(encoding="utf-8").split("\n## ")[1:]
+    readme = (DOCS.parent / "README.md").read_text(encoding="utf-8").split("\n## ")
+    for section in (*sections, *(one for one in readme if one.startswith(_FIRST))):
         blocks = _BLOCK.findall(section)
         names = [name for _, text in blocks for name in _SAVED.findall(text)]
         if names:
@@ -52,7 +55,7 @@ def _run(name: str) -> None:
     values: dict = {}
     for language, text in programs()[name]:
         if language == "python":
-            exec(compile(text, f"{PAGE.name}, {name}", "exec"), values)
+            exec(compile(text, f"program of {name}", "exec"), values)
         else:
             _command(text)
 

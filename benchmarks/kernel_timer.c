@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "base/fpenv.h"
+#include "base/limits.h"
 #include "check/driver/random.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
@@ -157,7 +158,7 @@ static struct {
     uint16_t texels[4 * (TEXTURE_SIDE + 2) * (TEXTURE_SIDE + 2) * 2];
     e3d_texture_view texture;
     e3d_light lights[LIGHTS];
-    float reach[5][LIGHTS + E3D_PAD];
+    float reach[5][LIGHTS + E3D_PAD], shown[LIGHTS][3];
     e3d_lighting lighting;
     e3d_batch batch;
 } shade_work;
@@ -183,7 +184,8 @@ static void make_lights(random_stream *r)
                              .to_light = {0.36f, 0.48f, 0.8f},
                              .range = 100.0f};
         for (int k = 0; k < 3; k++) {
-            light->color[k] = random_float(r, 0.2f, 1.0f);
+            light->color[k] = random_float(r, 0.6f, 3.2f);
+            shade_work.shown[n][k] = light->color[k] * E3D_OVER_PI;
             shade_work.reach[k][n] = light->position[k] = random_float(r, -4.0f, 4.0f);
         }
         shade_work.reach[3][n] = light->range * light->range;
@@ -191,6 +193,7 @@ static void make_lights(random_stream *r)
     }
     shade_work.lighting = (e3d_lighting){.lights = shade_work.lights,
                                          .light_count = LIGHTS,
+                                         .shown = (const float (*)[3])shade_work.shown,
                                          .ambient = {0.1f, 0.1f, 0.1f},
                                          .clamp = {0.0f, 100.0f},
                                          .eye = {0.0f, 0.0f, 5.0f, 1.0f}};

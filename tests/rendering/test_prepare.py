@@ -74,6 +74,7 @@ poses = np.tile(np.eye(4), (40, 1, 1))
 poses[:, 2, 3] = np.arange(40)
 scene = e3d.Scene()
 scene.add(e3d.InstancedMesh(e3d.uv_sphere(segments=(64, 32)), poses))
+scene.add(e3d.DirectionalLight())
 e3d.Renderer(64, 48, threads=1).prepare(scene)
 renderer = e3d.Renderer(1280, 720, threads=1)
 if sys.argv[1] == "prepared":

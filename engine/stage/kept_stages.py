@@ -101,10 +101,6 @@ class KeptStages:
             self._kept.popitem(last=False)
         return known
 
-    def forget(self) -> None:
-        """Drop all stages."""
-        self._kept.clear()
-
     @np.errstate(all="ignore")
     def _staged(self, thing: Any, options: Mapping[str, Any], marks: Marks) -> Stage:
         files: dict[str, FileState] = {}

@@ -65,10 +65,9 @@ class Task:
     look : {"studio", "plain"}, optional
         Draw the model as ``engine3d render --look`` does. Such a task allows no script, ``render``,
         ``scene`` or output except colour, and only the camera members ``azimuth_degrees`` and
-        ``elevation_degrees``, relative to the command's view, and
-        ``yfov_degrees``. By default, tasks with
-        nothing but a model and colour are drawn so in the look ``"studio"``; in other tasks, scenes
-        without light of their own are dressed as by `engine3d.render`.
+        ``elevation_degrees``, relative to the command's view, and ``yfov_degrees``. By default,
+        tasks with nothing but a model and colour are drawn so in the look ``"studio"``; in other
+        tasks, scenes without light of their own are dressed as by `engine3d.render`.
     scene : mapping
         ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as in `Scene`.
     outputs : sequence of str

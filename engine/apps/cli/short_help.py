@@ -24,10 +24,10 @@ def shorten(command: argparse.ArgumentParser, common: Collection[str]) -> None:
         The long options that the short help shows, such as ``"--output"``.
     """
     count = sum(bool(action.option_strings) for action in command._actions)
-    help_of_all = command.add_argument(
+    command.add_argument(
         WHOLE, action=_WholeHelp, nargs=0, help=f"show all {count} options and exit"
     )
-    shown = {"--help", *help_of_all.option_strings, *common}
+    shown = {"--help", WHOLE, *common}
     command.usage = f"{command.prog} [OPTION ...] [MODEL ...]"
     command.formatter_class = functools.partial(_ShortHelp, shown)
 

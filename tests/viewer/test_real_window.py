@@ -10,7 +10,7 @@ import time
 
 import numpy as np
 import pytest
-from desktop import MARKS, Desktop, processor_seconds, until, virtual_screen
+from desktop import IDLE_SHARE, MARKS, Desktop, processor_seconds, until, virtual_screen
 from PIL import Image
 
 from engine3d.apps.viewer.help_panel import draw_help
@@ -203,7 +203,7 @@ def test_what_stands_still_costs_nothing(screen, tmp_path):
         time.sleep(4.0)
         for (name, _), viewer, spent in zip(STILL, viewers, before, strict=True):
             spent = processor_seconds(viewer.process.pid) - spent
-            assert spent < 0.01 * (time.monotonic() - start), name
+            assert spent < IDLE_SHARE * (time.monotonic() - start), name
             assert f"{name} - engine3d - idle, last frame" in viewer.title
 
 

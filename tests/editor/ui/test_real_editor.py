@@ -5,7 +5,7 @@ import json
 import time
 
 import pytest
-from desktop import MARKS, Desktop, processor_seconds, until, virtual_screen
+from desktop import IDLE_SHARE, MARKS, Desktop, processor_seconds, until, virtual_screen
 
 import engine3d as e3d
 
@@ -31,10 +31,10 @@ def opened(screen, tmp_path):
 
 
 def is_idle(process):
-    """Whether a process takes no more than a hundredth of a processor for two seconds."""
+    """Whether a process has next to nothing to do for two seconds."""
     before = processor_seconds(process.pid)
     time.sleep(2)
-    return processor_seconds(process.pid) - before <= 0.02
+    return processor_seconds(process.pid) - before <= 2 * IDLE_SHARE
 
 
 class Editor(Desktop):

@@ -19,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 # Folders whose code does what the reference does, in other ways.
 SEVERAL_WAYS = {"check", "frame", "kernels"}
+SUFFIXES = {".c", ".h", ".inl"}
 # A heading of a part of a file, or a function with the comment right above it.
 PART = re.compile(
     r"^(?P<heading>/\* ---- .* ---- \*/\n)"
@@ -48,7 +49,8 @@ def functions_of(text: str) -> Iterator[tuple[str, set[int]]]:
 def ranks() -> list[list[Path]]:
     """The files that may hold a rule's code: the reference, what has no other way, all others."""
     reference, alone, others = [], [], []
-    for path in sorted([*(ROOT / "csrc").rglob("*.[chi]*"), *(ROOT / "engine").rglob("*.py")]):
+    core = [path for path in (ROOT / "csrc").rglob("*") if path.suffix in SUFFIXES]
+    for path in sorted([*core, *(ROOT / "engine").rglob("*.py")]):
         folders = path.relative_to(ROOT).parts[1:-1]
         if "reference" in folders:
             reference.append(path)

@@ -315,3 +315,13 @@ def test_a_line_chart_spans_whole_powers(monkeypatch):
     assert [value for value, _ in axis.ticks()] == [10, 100, 1000, 10000]
     assert axis.place(100) == pytest.approx(1 / 3)
     assert [value for value, _ in line_chart._Axis([3, 3]).ticks()] == [2, 4]
+
+
+def test_beside_peers():
+    """Only engine3d is surely there."""
+    given = ("--only", "engine3d", "bpy", "--triangles", "2000", "--repeat", "1")
+    rows = {row["library"]: row for row in report("beside_peers.py", *given)["rows"]}
+    row = rows["engine3d"]
+    assert row["version"] == e3d.__version__
+    assert min(value for key, value in row.items() if key not in ("library", "version")) > 0
+    assert row["first_picture_s"] > row["import_s"]

@@ -4,6 +4,7 @@ An editable install is found by import hooks, which type checkers don't run: the
 in which the package lies under its name.
 """
 
+import json
 import re
 import shutil
 import subprocess
@@ -16,7 +17,9 @@ import pytest
 import engine3d
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+FOLDERS = [ROOT / "docs", ROOT / "docs" / "tutorials", ROOT / "docs" / "viewer"]
+PAGES = [ROOT / "README.md", *(page for each in FOLDERS for page in sorted(each.glob("*.md")))]
+EXAMPLES = sorted((ROOT / "docs").rglob("examples/*.py"))
 
 # What editors and checkers are to know.
 RIGHT = """
@@ -119,10 +122,14 @@ def sources(tmp_path_factory):
         if any(f"import {each}" in text and not find_spec(each) for each in ("pandas", "trimesh")):
             continue
         if text.strip():
-            (folder / f"{page.stem}_md.py").write_text(text, encoding="utf-8")
+            name = "_".join(page.relative_to(ROOT).with_suffix("").parts)
+            (folder / f"{name}_md.py").write_text(text, encoding="utf-8")
+    for example in EXAMPLES:
+        shutil.copy(example, folder)
     (folder / "right.py").write_text(RIGHT, encoding="utf-8")
     (folder / "wrong.py").write_text(RIGHT + WRONG, encoding="utf-8")
-    (folder / "pyrightconfig.json").write_text('{"extraPaths": ["packages"]}', encoding="utf-8")
+    options = {"extraPaths": ["packages"], "typeCheckingMode": "standard"}
+    (folder / "pyrightconfig.json").write_text(json.dumps(options), encoding="utf-8")
     assert len(list(folder.glob("*_md.py"))) >= 4
     return folder
 
@@ -140,7 +147,10 @@ def run_mypy(folder, monkeypatch, cache):
     monkeypatch.setenv("MYPYPATH", str(folder / "packages"))
     options = [
         "--follow-imports=silent",
-        "--check-untyped-defs",
+        "--strict",
+        "--allow-untyped-defs",  # an example says what it does, not what its functions take
+        "--allow-untyped-calls",
+        "--allow-any-generics",
         "--hide-error-context",
         "--disable-error-code=import-untyped",
         "--config-file=",
@@ -149,16 +159,18 @@ def run_mypy(folder, monkeypatch, cache):
 
 
 def run_pyright(folder, monkeypatch, cache):
-    pyright = shutil.which("pyright", path=Path(sys.executable).parent) or shutil.which("pyright")
-    if pyright is None:
-        pytest.skip("pyright is not installed (pip install pyright)")
-    try:
-        started = subprocess.run([pyright, "--version"], capture_output=True, timeout=60)
-    except subprocess.TimeoutExpired:
-        started = None
-    if started is None or started.returncode:
-        pytest.skip("pyright is installed, but does not start (it fetches its program at first)")
-    return [pyright, "--pythonpath", sys.executable, "--level", "error"]
+    """basedpyright is pyright as a wheel, where pyright fetches its program from elsewhere."""
+    if find_spec("basedpyright") is None:
+        pytest.skip("basedpyright is not installed (pip install basedpyright)")
+    return [
+        sys.executable,
+        "-m",
+        "basedpyright",
+        "--pythonpath",
+        sys.executable,
+        "--level",
+        "error",
+    ]
 
 
 @pytest.mark.parametrize(

@@ -50,6 +50,7 @@ sphinx_gallery_conf = {
     "capture_repr": (),
     "reset_modules": (),
     "within_subsection_order": "FileNameSortKey",
+    "nested_sections": False,
 }
 
 # The list of all files is made here, from their first sentences.

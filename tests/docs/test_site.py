@@ -3,22 +3,41 @@
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
 import engine3d
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-EXAMPLES = sorted((DOCS / "examples").glob("plot_*.py"))
+EXAMPLES = sorted((DOCS / "examples").glob("*/plot_*.py"))
+MAX_LINES = 48
+
+
+def test_there_are_many_examples_and_each_has_a_number():
+    numbers = [path.stem.split("_")[1] for path in EXAMPLES]
+    assert len(EXAMPLES) >= 30 and len(set(numbers)) == len(numbers)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_examples_run_and_draw(path):
+def test_examples_run_and_draw(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     names = runpy.run_path(str(path))
-    drawn = [x for x in names.values() if isinstance(x, (engine3d.Frame, engine3d.Canvas))]
+    kinds = (engine3d.Frame, engine3d.Canvas, Image.Image)
+    drawn = [np.asarray(x) for x in names.values() if isinstance(x, kinds)]
+    drawn += [np.asarray(Image.open(path).convert("RGB")) for path in tmp_path.iterdir()]
     assert drawn, "nothing to show: the page would have no picture"
-    for picture in drawn:
-        pixels = picture.color if isinstance(picture, engine3d.Frame) else picture.pixels
+    for pixels in drawn:
         assert pixels.std() > 1.0, "a blank picture"
+        assert pixels.shape[0] * pixels.shape[1] <= 640 * 480, "examples are small and quick"
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_are_short_and_say_what_they_show(path):
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= MAX_LINES
+    title, rule, blank, first = text.split("\n")[1:5]
+    assert len(title) == len(rule) and not blank and first.startswith("This ")
 
 
 def test_every_page_has_its_place_in_the_site():

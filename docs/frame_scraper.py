@@ -1,8 +1,8 @@
 """Finds the pictures that an example of the site drew.
 
-Sphinx-Gallery calls it after each block of an example. In: the block's names, and files of pictures
-that it wrote. Out: the frames, canvases and images of Pillow among them that no block before had, as
-files of the site, and the reStructuredText that shows them.
+Sphinx-Gallery calls it after each block of an example. In: the block's names, and pictures that the
+block wrote to files. Out: these, and the frames, canvases and images of Pillow among the names that
+no block before had, as files of the site, and the reStructuredText that shows them.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from sphinx_gallery.scrapers import figure_rst
 
 from engine3d import Canvas, Frame
 
+KINDS = (Canvas, Frame, Image.Image)
 #: The files that examples write, and that are shown.
 WRITTEN = (".gif", ".png", ".webp")
 
@@ -44,7 +45,7 @@ class FrameScraper:
         """Write the pictures among the names, and return the paths."""
         paths = []
         for thing in list(names.values()):
-            if not isinstance(thing, (Canvas, Frame, Image.Image)) or self._has(thing):
+            if not isinstance(thing, KINDS) or self._has(thing):
                 continue
             self._shown.append(thing)
             path = Path(next(places))
@@ -66,5 +67,10 @@ class FrameScraper:
 
     def _has(self, thing: Any) -> bool:
         """Whether this was shown, also under another name: canvases draw into frames."""
-        pixels = np.asarray(thing)
-        return any(thing is old or np.shares_memory(pixels, old) for old in self._shown)
+        pixels = pixels_of(thing)
+        return any(thing is old or np.shares_memory(pixels, pixels_of(old)) for old in self._shown)
+
+
+def pixels_of(thing: Any) -> np.ndarray:
+    """Return the pixels of a frame, a canvas or an image."""
+    return thing.pixels if isinstance(thing, Canvas) else np.asarray(thing)

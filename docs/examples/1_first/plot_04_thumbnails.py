@@ -16,10 +16,8 @@ import engine3d as e3d
 
 folder = files("engine3d.data") / "models"
 look = e3d.Look.studio(background=None, ground=False)
-thumbnails = []
-for path in sorted(folder.iterdir(), key=str):
-    if path.suffix in (".obj", ".asc"):
-        thumbnails.append(e3d.render(path, size=(96, 96), look=look))
+models = [path for path in folder.iterdir() if path.name.endswith((".obj", ".asc"))]
+thumbnails = [e3d.render(path, size=(96, 96), look=look) for path in sorted(models, key=str)]
 
 # %%
 # ``thumbnails[0].save("globe.webp")`` writes one. Alpha says how much of a pixel is covered.

@@ -4,8 +4,8 @@ A turntable
 
 This writes an animation of a model that turns, as a GIF.
 
-``orbit`` gives the poses of cameras around a target. The suffix of the file chooses the format: GIF,
-WebP, APNG, MP4 or numbered pictures.
+``orbit`` gives the poses of cameras around a target. The suffix of the file chooses the format:
+GIF, WebP, APNG, MP4 or numbered pictures.
 """
 
 from importlib.resources import files

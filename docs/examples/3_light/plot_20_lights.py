@@ -4,8 +4,8 @@ Lamps of three kinds
 
 This lights a room with a point light, a spot light and faint light from the sky.
 
-Intensities of points and spots are in candela, and of directional lights in lux, as in glTF: π shows
-a white wall white at a distance of 1.
+Intensities of points and spots are in candela, and of directional lights in lux, as in glTF: π
+shows a white wall white at a distance of 1.
 """
 
 import math
@@ -22,5 +22,5 @@ lamp = e3d.PointLight("orange", 1.2 * math.pi, shadow="exact")
 scene.add(lamp, translation=(-1.4, 1.3, 0.6))
 spot = e3d.SpotLight("white", 6.0 * math.pi, outer_cone_angle=0.35, shadow="exact")
 scene.add(spot, pose=e3d.look_at((2.4, 2.6, 2.2), (1.3, 0.2, -0.2)))
-camera = e3d.PerspectiveCamera(0.6), e3d.look_at((0.6, 2.2, 6.0), (0.0, 0.8, 0.0))
+camera = e3d.PerspectiveCamera(0.6), e3d.look_at((0.6, 1.9, 4.9), (0.0, 0.65, 0.0))
 frame = e3d.render(scene, camera, size=(480, 300))

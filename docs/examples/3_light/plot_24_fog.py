@@ -2,7 +2,8 @@
 Fog
 ===
 
-This puts fog between the camera and a row of pillars. What is far away takes the colour of the fog.
+This puts fog between the camera and a row of pillars. What is far away takes the colour of the
+fog.
 
 ``Fog(color, near, far)`` begins at a distance and hides everything from another one on.
 ``ExponentialFog(color, density)`` begins at the camera.

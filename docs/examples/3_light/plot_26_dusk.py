@@ -4,8 +4,8 @@ The sun and the sky
 
 This lights a model by a low sun and the sky around it.
 
-The sun is a light of its own here, so that it casts shadows; ``sun_disc=False`` keeps the sky from
-lighting the scene with it a second time.
+The sun is a light of its own here, so that it casts shadows; ``sun_disc=False`` keeps the sky
+from lighting the scene with it a second time.
 """
 
 from importlib.resources import files

@@ -2,9 +2,9 @@
 Varnish, cloth and thin films
 =============================
 
-This draws layers over a base: ``clearcoat`` is a coat of varnish, ``sheen_color`` the fuzz of cloth,
-``iridescence`` a thin film as on a soap bubble, and ``anisotropy`` the stretched highlight of brushed
-metal.
+This draws layers over a base: ``clearcoat`` is a coat of varnish, ``sheen_color`` the fuzz of
+cloth, ``iridescence`` a thin film as on a soap bubble, and ``anisotropy`` the stretched highlight
+of brushed metal.
 """
 
 import engine3d as e3d

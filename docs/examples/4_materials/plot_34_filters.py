@@ -19,7 +19,7 @@ textures = {
 }
 camera = e3d.PerspectiveCamera(0.5), e3d.look_at((0.0, 1.6, 20.0), (3.0, 0.0, 4.0))
 strips = []
-for name, texture in textures.items():
+for texture in textures.values():
     floor = e3d.plane((160.0, 80.0))
     floor.uvs = floor.uvs * (64, 32)
     floor.materials = [e3d.Material(texture=texture)]

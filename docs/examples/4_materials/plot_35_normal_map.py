@@ -15,7 +15,9 @@ import engine3d as e3d
 
 rows, columns = np.indices((256, 256))
 shifted = columns + 32 * (rows // 32 % 2)
-edge = np.minimum(np.minimum(rows % 32, 31 - rows % 32), np.minimum(shifted % 64, 63 - shifted % 64))
+edge = np.minimum(
+    np.minimum(rows % 32, 31 - rows % 32), np.minimum(shifted % 64, 63 - shifted % 64)
+)
 height = np.clip(edge / 5.0, 0.0, 1.0)
 down, right = np.gradient(height)
 normals = np.stack([-4.0 * right, 4.0 * down, np.ones_like(height)], axis=-1)

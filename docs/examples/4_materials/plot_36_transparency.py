@@ -2,8 +2,8 @@
 Transparent panes
 =================
 
-This draws panes that cross each other. Whatever order they are added in, each pixel blends them from
-back to front.
+This draws panes that cross each other. Whatever order they are added in, each pixel blends them
+from back to front.
 
 ``alpha_mode="blend"`` makes alpha count; the fourth number of a colour is its alpha.
 """
@@ -14,9 +14,7 @@ scene = e3d.Scene(background=(240, 240, 236), ambient=(160, 160, 160))
 colors = ((220, 50, 40, 140), (40, 160, 70, 140), (40, 90, 220, 140))
 for number, color in enumerate(colors):
     pane = e3d.box((2.0, 1.4, 0.04))
-    pane.materials = [
-        e3d.Material(color=color, metallic=0.0, roughness=0.2, alpha_mode="blend")
-    ]
+    pane.materials = [e3d.Material(color=color, metallic=0.0, roughness=0.2, alpha_mode="blend")]
     turn = e3d.linalg.euler_to_quaternion((0.0, 1.05 * number, 0.0))
     scene.add(pane, translation=(0.0, 0.75, 0.0), rotation=turn)
 scene.add(e3d.plane(5.0))

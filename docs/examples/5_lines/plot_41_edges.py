@@ -2,14 +2,16 @@
 Edges of a part
 ===============
 
-This draws dark lines where the faces of a part meet at an angle, as drawings of CAD have them.
+This draws the edges of a part's polygons over its faces, as dark lines.
+
+``line_color``, ``line_width`` and ``line_shape`` say how they look.
 """
 
 import engine3d as e3d
 
 parts = [e3d.box((2.4, 0.4, 1.6))]
 for x in (-0.7, 0.7):
-    stub = e3d.cylinder(0.35, 0.9, 48)
+    stub = e3d.cylinder(0.35, 0.9, 24)
     parts.append(stub.transformed(e3d.linalg.translation((x, 0.65, 0.0))))
 part = e3d.Mesh.concatenate(parts)
 aluminium = e3d.Material(color=(0.72, 0.75, 0.78), metallic=0.0, roughness=0.5)

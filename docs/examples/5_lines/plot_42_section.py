@@ -2,7 +2,8 @@
 A section
 =========
 
-This cuts a hollow part open along a plane. The cut is hatched, and drawn from the front and aslant.
+This cuts a hollow part open along a plane. The cut is hatched, and drawn from the front and
+aslant.
 
 ``"x=50%"`` places the plane halfway; ``"-x=50%"`` takes away the other half.
 """

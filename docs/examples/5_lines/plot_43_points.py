@@ -4,8 +4,8 @@ A point cloud
 
 This draws an array of points, each with a colour.
 
-Points are as large as suits their number. ``point_size`` chooses pixels, and ``point_shape="round"``
-draws discs.
+Points are as large as suits their number. ``point_size`` chooses pixels, and
+``point_shape="round"`` draws discs.
 """
 
 import numpy as np

@@ -16,7 +16,7 @@ ball.morph_targets = [e3d.motion.MorphTarget(0.9 * bumps * direction, name="star
 ball.materials = [e3d.Material(color="orchid", metallic=0.0, roughness=0.3)]
 scene = e3d.Scene()
 node = scene.add(ball)
-camera = e3d.PerspectiveCamera(0.6), e3d.look_at((1.5, 1.5, 3.6), (0.0, 0.0, 0.0))
+camera = e3d.PerspectiveCamera(0.6), e3d.look_at((2.1, 2.1, 5.0), (0.0, 0.0, 0.0))
 tiles = []
 for weight in (0.0, 0.4, 0.8):
     node.morph_weights = [weight]

@@ -2,8 +2,8 @@
 Levels of detail
 ================
 
-This draws balls in the coarsest of four meshes that nobody can tell from the finest. Here each level
-has a colour, and one pixel of error is allowed.
+This draws balls in the coarsest of four meshes that nobody can tell from the finest. Here each
+level has a colour, and one pixel of error is allowed.
 """
 
 import numpy as np

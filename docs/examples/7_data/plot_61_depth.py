@@ -22,6 +22,5 @@ print(f"from {frame.depth[seen].min():.2f} to {frame.depth.max():.2f}")
 
 share = np.where(seen, (frame.depth - frame.depth[seen].min()) / np.ptp(frame.depth[seen]), 1.0)
 near, far = np.array((250, 230, 120)), np.array((40, 30, 90))
-colors = near + (far - near) * share[..., np.newaxis] * seen[..., np.newaxis]
-colors[~seen] = 0
+colors = np.where(seen[..., np.newaxis], near + (far - near) * share[..., np.newaxis], 0)
 depth = Image.fromarray(colors.astype(np.uint8))

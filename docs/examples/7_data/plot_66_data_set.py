@@ -4,7 +4,7 @@ A data set with annotations
 
 This makes pictures of things in random places, and writes them with COCO's boxes and masks.
 
-Everything random follows from a seed, so the data set has the same bytes on every machine.
+All that is random follows from a seed: every machine writes the same bytes.
 """
 
 import json
@@ -12,31 +12,29 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 import engine3d as e3d
-from engine3d.datasets import CocoWriter, Generator, Sample, random_camera, random_pose
+from engine3d.datasets import CocoWriter, Generator, Sample, random_camera
 
 things = {"ring": e3d.torus(0.5, 0.2), "box": e3d.box(0.7), "ball": e3d.uv_sphere(0.4)}
 
 
-def samples(writer, count):
+def samples(writer, renderer, seeds):
     """Scenes with one of each thing, drawn."""
-    with e3d.Renderer(160, 120) as renderer:
-        for seed in range(count):
-            scene, generator = e3d.Scene(), Generator(seed)
-            for name, mesh in things.items():
-                pose = random_pose(generator.fork(name), (-1, -1, -1), (1, 1, 1))
-                scene.add(mesh, name=name, pose=pose)
-            camera, pose = random_camera(generator, scene)
-            frame = renderer.render(scene, (camera, pose), outputs=writer.outputs)
-            frames.append(frame.color.copy())
-            yield Sample(f"{seed:04}", seed, frame, scene, camera, pose, renderer)
+    for seed in seeds:
+        scene, generator = e3d.Scene(), Generator(seed)
+        for place, (name, mesh) in enumerate(things.items()):
+            scene.add(mesh, name=name, translation=(place - 1.0, 0.5 * (place % 2), 0.0))
+        camera, pose = random_camera(generator, scene, distance=(1.0, 1.3))
+        frame = renderer.render(scene, (camera, pose), outputs=writer.outputs)
+        yield Sample(f"{seed:04}", seed, frame, scene, camera, pose, renderer)
 
 
-frames = []
-with tempfile.TemporaryDirectory() as folder:
+with tempfile.TemporaryDirectory() as folder, e3d.Renderer(160, 120) as renderer:
     writer = CocoWriter(list(things))
-    e3d.datasets.write_dataset(folder, writer, samples(writer, 3))
-    written = json.loads((Path(folder) / "annotations.json").read_text())
-print(len(written["images"]), "pictures,", len(written["annotations"]), "annotations")
-picture = e3d.Canvas(np.hstack(frames))
+    e3d.datasets.write_dataset(folder, writer, samples(writer, renderer, range(3)))
+    annotations = json.loads((Path(folder) / "annotations.json").read_text())["annotations"]
+    shown = [np.asarray(Image.open(path)) for path in sorted(Path(folder).glob("images/*.png"))]
+print(annotations[0]["bbox"])
+picture = Image.fromarray(np.hstack(shown))

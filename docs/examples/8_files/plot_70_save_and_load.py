@@ -2,8 +2,8 @@
 Saving and loading a scene
 ==========================
 
-This writes a scene with its lights and camera to a file, and reads it back: the picture has the same
-bytes.
+This writes a scene with its lights and camera to a file, and reads it back: the picture has the
+same bytes.
 """
 
 import tempfile

@@ -38,7 +38,7 @@ class FrameScraper:
         places = block_vars["image_path_iterator"]
         written = self._written(Path(self._source).parent, places)
         drawn = self._drawn(block_vars["example_globals"], places)
-        title = block_vars["example_globals"]["__doc__"].split("\n")[1]
+        title = Path(self._source).read_text("utf-8").split("\n")[1]
         return figure_rst([*written, *drawn], gallery_conf["src_dir"], fig_titles=title)
 
     def _drawn(self, names: dict, places: Any) -> list[str]:

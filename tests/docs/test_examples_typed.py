@@ -17,6 +17,7 @@ import engine3d
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES += sorted((ROOT / "docs" / "viewer").glob("*.md"))
 
 # What editors and checkers are to know.
 RIGHT = """

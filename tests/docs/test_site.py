@@ -41,8 +41,9 @@ def test_examples_are_short_and_say_what_they_show(path):
 
 
 def test_every_page_has_its_place_in_the_site():
-    pages = {page.stem for page in (*DOCS.glob("*.md"), *DOCS.glob("exactness/*.md"))} - {"index"}
-    parents = ("index.md", "guides.md", "inside.md", "exactness/index.md")
+    folders = ("", "exactness/", "viewer/")
+    pages = {page.stem for folder in folders for page in DOCS.glob(f"{folder}*.md")} - {"index"}
+    parents = ("index.md", "guides.md", "inside.md", "exactness/index.md", "viewer/index.md")
     texts = [(DOCS / name).read_text(encoding="utf-8") for name in parents]
     placed = {line for text in texts for line in text.split("```{toctree}")[1].splitlines()}
     assert pages <= placed, "name it in a toctree of docs/guides.md or docs/inside.md"

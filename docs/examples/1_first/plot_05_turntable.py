@@ -17,9 +17,9 @@ import engine3d as e3d
 nautilus = e3d.load(files("engine3d.data") / "models" / "nautilus.obj")
 camera, _ = e3d.frame_scene(nautilus, yfov=0.5)
 target, size = nautilus.bounds.mean(axis=0), np.ptp(nautilus.bounds, axis=0)
-turns = np.linspace(0.0, 2.0 * np.pi, 18, endpoint=False)
+turns = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
 poses = e3d.orbit(target, 2.4 * size.max(), turns, 0.3)
 
 look = e3d.Look.studio(background=(236, 234, 228))
 frames = [e3d.render(nautilus, (camera, pose), size=(240, 200), look=look) for pose in poses]
-e3d.save_animation(frames, "turntable.gif", fps=9)
+e3d.save_animation(frames, "turntable.gif", fps=6)

@@ -22,6 +22,7 @@ extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
+    "sphinx.ext.viewcode",
     "numpydoc",
     "sphinx_gallery.gen_gallery",
 ]
@@ -50,6 +51,7 @@ sphinx_gallery_conf = {
     "capture_repr": (),
     "reset_modules": (),
     "within_subsection_order": "FileNameSortKey",
+    "nested_sections": False,
 }
 
 # The list of all files is made here, from their first sentences.
@@ -58,15 +60,23 @@ _map.parent.mkdir(exist_ok=True)
 _map.write_text(map_page(), "utf-8")
 
 html_theme = "pydata_sphinx_theme"
-html_title = "engine3d"
-html_show_sourcelink = False
+html_title = f"engine3d {version}"
+html_logo = html_favicon = "site/logo.svg"
+html_static_path = ["site"]
+html_css_files = ["site.css"]
+# The text of a page, and beside each name of the API the code that it stands for.
+html_show_sourcelink = True
 html_theme_options = {
+    "logo": {"text": f"engine3d {version}", "alt_text": "engine3d"},
     "show_toc_level": 2,
     "navigation_depth": 2,
+    "navbar_end": ["theme-switcher"],
     "footer_start": ["copyright"],
     "footer_end": ["sphinx-version"],
-    "secondary_sidebar_items": ["page-toc"],
+    "secondary_sidebar_items": ["page-toc", "sourcelink"],
 }
+# Pages without a section of their own have no list of pages beside them.
+html_sidebars = {page: [] for page in ("index", "start", "gallery", "search", "genindex")}
 
 #: Classes that a user never makes. Their entries show no parameters.
 MADE_BY_OTHERS = ("Node", "NodeSelection", "Frame", "RasterizeResult", "World")

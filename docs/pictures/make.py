@@ -138,20 +138,26 @@ def modes() -> np.ndarray:
 
 
 def filters() -> np.ndarray:
-    """A floor that recedes, through the three texture filters."""
+    """A floor that recedes, through the texture filters."""
     board = (np.indices((64, 64)) // 32).sum(axis=0) % 2
     pixels = np.where(board[:, :, None], np.uint8([236, 232, 222]), np.uint8([64, 84, 120]))
+    textures = {
+        "nearest": e3d.Texture(pixels, filter="nearest"),
+        "bilinear": e3d.Texture(pixels, filter="bilinear"),
+        "trilinear": e3d.Texture(pixels),
+        "anisotropy=16": e3d.Texture(pixels, anisotropy=16),
+    }
     tiles = []
-    for name in ("nearest", "bilinear", "trilinear"):
+    for name, texture in textures.items():
         floor = e3d.plane((240.0, 120.0))
         floor.uvs = floor.uvs * np.float32((96, 48))
-        floor.materials = [e3d.Material(texture=e3d.Texture(pixels, filter=name))]
-        scene = e3d.Scene(background=PAPER)
+        floor.materials = [e3d.Material(texture=texture)]
+        scene = e3d.Scene(background=(196, 211, 222))
         scene.add(floor)
-        camera = look((0.0, 2.2, 30.0), (4.0, 0.0, 8.0), 0.6)
-        frame = e3d.render(scene, camera, size=(420, 240), mode="unlit", **EXACT)
+        camera = look((0.0, 2.2, 30.0), (4.0, -0.6, 8.0), 0.4)
+        frame = e3d.render(scene, camera, size=(630, 200), mode="unlit", **EXACT)
         tiles.append((name, frame.color))
-    return sheet(tiles, 3)
+    return sheet(tiles, 2)
 
 
 def scenes() -> np.ndarray:
@@ -176,71 +182,66 @@ def ripples(size=256) -> e3d.Texture:
     return e3d.Texture(np.rint(127.5 + 127.5 * normals).astype(np.uint8), color_space="linear")
 
 
+def balls() -> dict[str, dict]:
+    """The materials of `materials`: what stands below each, and its values."""
+    gold, red = e3d.linear(1.0, 0.77, 0.34), e3d.linear(0.45, 0.02, 0.02)
+    smooth = (0.0, 0.25, 0.5, 0.75, 1.0)
+    rough = {f"metal, roughness {r:g}": {"metallic": 1.0, "roughness": r} for r in smooth}
+    matt = {f"roughness {r:g}": {"metallic": 0.0, "roughness": r} for r in smooth}
+    return {
+        **{name: {"color": gold, **values} for name, values in rough.items()},
+        **{name: {"color": red, **values} for name, values in matt.items()},
+        "clearcoat": {
+            "color": e3d.linear(0.03, 0.06, 0.3),
+            "roughness": 0.6,
+            "metallic": 0.3,
+            "clearcoat": 1.0,
+        },
+        "sheen": {
+            "color": e3d.linear(0.01, 0.08, 0.05),
+            "roughness": 0.9,
+            "metallic": 0.0,
+            "sheen_color": e3d.linear(0.3, 0.8, 0.5),
+            "sheen_roughness": 0.4,
+        },
+        "normal map": {
+            "color": e3d.linear(0.9, 0.9, 0.92),
+            "metallic": 1.0,
+            "roughness": 0.15,
+            "normal_texture": ripples(),
+        },
+        "anisotropy": {
+            "color": e3d.linear(0.9, 0.5, 0.35),
+            "metallic": 1.0,
+            "roughness": 0.4,
+            "anisotropy": 0.9,
+        },
+        "iridescence": {
+            "color": e3d.linear(0.5, 0.5, 0.52),
+            "metallic": 1.0,
+            "roughness": 0.15,
+            "iridescence": 1.0,
+        },
+    }
+
+
 def materials() -> np.ndarray:
-    """Physically based balls in a hall, behind panes of coloured glass that cross."""
-    rows = (
-        [
-            {"color": e3d.linear(1.0, 0.77, 0.34), "metallic": 1.0, "roughness": r}
-            for r in (0.05, 0.2, 0.4, 0.6, 0.9)
-        ],
-        [
-            {"color": e3d.linear(0.72, 0.05, 0.04), "metallic": 0.0, "roughness": r}
-            for r in (0.05, 0.2, 0.4, 0.6, 0.9)
-        ],
-        [
-            {
-                "color": e3d.linear(0.05, 0.08, 0.3),
-                "roughness": 0.6,
-                "clearcoat": 1.0,
-                "metallic": 0.3,
-            },
-            {
-                "color": e3d.linear(0.02, 0.1, 0.06),
-                "roughness": 0.9,
-                "metallic": 0.0,
-                "sheen_color": e3d.linear(0.3, 0.8, 0.5),
-                "sheen_roughness": 0.4,
-            },
-            {
-                "color": e3d.linear(0.9, 0.9, 0.92),
-                "metallic": 1.0,
-                "roughness": 0.15,
-                "normal_texture": ripples(),
-            },
-            {"color": e3d.linear(0.9, 0.45, 0.3), "metallic": 1.0, "roughness": 0.3},
-            {
-                "color": e3d.linear(0.02, 0.02, 0.02),
-                "metallic": 0.0,
-                "roughness": 0.1,
-                "emissive": e3d.linear(0.1, 0.5, 0.9),
-            },
-        ],
-    )
-    scene = e3d.Scene(background=e3d.Environment.hall(), ambient=(0, 0, 0))
-    scene.environment, scene.background_blur = scene.background, 0.35
-    scene.environment_intensity = 0.6
-    for row, values in enumerate(rows):
-        for column, value in enumerate(values):
-            ball = e3d.uv_sphere(0.46, (96, 48))
-            ball.materials = [e3d.Material(**value)]
-            scene.add(ball, translation=(column - 2.0, 1.0 - row, 0.0))
-    reddish, bluish = e3d.linear(0.8, 0.12, 0.03, 0.5), e3d.linear(0.03, 0.2, 0.8, 0.5)
-    for angle, color in ((0.5, reddish), (-0.5, bluish)):
-        pane = e3d.primitives.quad(
-            (-0.65, -1.55, 0), (0.65, -1.55, 0), (0.65, 1.55, 0), (-0.65, 1.55, 0)
-        )
-        pane.materials = [
-            e3d.Material(
-                color=color, roughness=0.1, metallic=0.0, alpha_mode="blend", two_sided=True
-            )
-        ]
-        scene.add(
-            pane,
-            translation=(2.0, 0.0, 0.75),
-            rotation=linalg.quaternion_from_axis_angle((0, 1, 0), angle),
-        )
+    """Physically based balls in a studio, each with what makes it."""
+    scene = e3d.Scene(background=e3d.Gradient((70, 75, 84), (42, 46, 53)), ambient=(0, 0, 0))
+    scene.environment = e3d.Environment.studio()
+    for number, values in enumerate(balls().values()):
+        row, column = divmod(number, 5)
+        ball = e3d.uv_sphere(0.4, (96, 48)).with_tangents()
+        ball.materials = [e3d.Material(**values)]
+        scene.add(ball, translation=(column - 2.0, 1.04 - row, 0.0))
     scene.add(e3d.DirectionalLight((-0.5, -0.7, -0.6), e3d.linear(1.0, 0.95, 0.85), 1.5))
-    return draw(scene, look((0.9, 0.5, 9.5), (0.05, 0.0, 0.0)), (1120, 660))
+    camera = e3d.OrthographicCamera(1.5), e3d.look_at((0, 0, 5), (0, 0, 0))
+    picture = draw(scene, camera, (1120, 660), tone_mapping="neutral")
+    canvas = e3d.Canvas(picture)
+    for number, name in enumerate(balls()):
+        row, column = divmod(number, 5)
+        canvas.text(120 + 220 * column - 4 * len(name), 197 + 220 * row, name, CAPTION)
+    return picture
 
 
 def walls() -> np.ndarray:
@@ -285,10 +286,13 @@ def city() -> np.ndarray:
     tiles = []
     size, viewed = (630, 354), load_demo("city", dusk=True)
     with ViewRenderer(viewed, Settings({}, look="studio"), size, samples=4) as view_renderer:
-        for caption, walks in (("--dusk --camera fps", True), ("--scene city --dusk", False)):
+        for caption, walks in (("--dusk --camera fps", True), ("from above", False)):
             view = view_renderer.view()
             if walks:
                 controller(view_renderer, view).place(view)
+            else:
+                view.target, view.distance = np.array([14.0, 0.0, -24.0]), 350.0
+                view.azimuth, view.elevation = math.radians(125.0), math.radians(38.0)
             tiles.append((caption, view_renderer.draw(view, 1.0).color))
     return sheet(tiles, 2)
 
@@ -300,34 +304,30 @@ def contact_sheet() -> np.ndarray:
 
 
 def impostors() -> np.ndarray:
-    """Teapots as meshes, as their impostors, and what the impostors look like from near."""
+    """A field of teapots as meshes, and with impostors where nobody can tell."""
     mesh = load("teapot.obj")
-    impostor = e3d.detail.Impostor(mesh, views=10, texels=32)
+    impostor = e3d.detail.Impostor(mesh, views=12, texels=64)
     random = np.random.default_rng(3)
-    poses = np.zeros((120, 4, 4))
+    poses = np.zeros((360, 4, 4))
     for number in range(len(poses)):
         turn = linalg.rotation_y(random.uniform(0, 2 * math.pi))
-        row, column = divmod(number, 12)
-        place = ((column - 5.5) * 5.0, 0.0, -9.0 * row)
+        row, column = divmod(number, 18)
+        place = ((column - 8.5) * 7.0, 0.0, -8.0 * row)
         poses[number] = linalg.multiply(linalg.translation(place), turn)
-    camera, pose = look((0.0, 60.0, 90.0), (0.0, 0.0, -36.0), yfov=0.42)
-    size = (420, 280)
-    tiles = []
-    for caption, zoom, card in (
-        ("716,640 triangles", 1, None),
-        ("as impostors", 1, impostor),
-        ("the same from near", 4, impostor),
-    ):
+    camera, pose = look((6.0, 16.0, 26.0), (0.0, -6.0, -36.0), yfov=0.6)
+    size, tiles = (630, 340), []
+    for card in (None, impostor):
         teapots = e3d.detail.DetailedInstances(
-            [(mesh, 0.0)], poses, impostor=card, impostor_pixels=1000.0
+            [(mesh, 0.0)], poses, impostor=card, impostor_pixels=8.0
         )
         scene = e3d.Scene(background=(196, 211, 222))
         add_daylight(scene)
         teapots.add_to(scene)
         teapots.update(camera, pose, size)
-        near = e3d.PerspectiveCamera(0.42 / zoom, znear=1.0, zfar=300.0)
-        tiles.append((caption, draw(scene, (near, pose), size)))
-    return sheet(tiles, 3)
+        meshes = int(np.count_nonzero(teapots.level == 0))
+        caption = f"{meshes} meshes" + ("" if card is None else f", {360 - meshes} impostors")
+        tiles.append((caption, draw(scene, (camera, pose), size)))
+    return sheet(tiles, 2)
 
 
 def golden() -> np.ndarray:

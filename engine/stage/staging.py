@@ -24,7 +24,7 @@ from .look import THEMED
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid
 from .overlays.grid_lines import grid
-from .overlays.theme import Theme
+from .overlays.theme import DARK, LIGHT, Theme
 from .shadow_switch import switch_shadows
 from .stage_settings import Settings
 from .studio import BEHIND, Studio, theme_for
@@ -81,10 +81,18 @@ class Staging:
             scene.light_clamp = settings.light_clamp
         if settings.exposure is not None:
             scene.exposure = settings.exposure
+        self._take_theme()
         self._lay_background()
         settings.surroundings.put(scene, settings.look.environment)
         self._lay_fog()
         self.stand(up, lights)
+
+    def _take_theme(self) -> None:
+        """Take the theme that the look names, if it names one."""
+        named = {"dark": DARK, "light": LIGHT}
+        background = self.settings.look.background
+        if isinstance(background, str) and background in named and not self.settings.keeps_theme:
+            self.theme = named[background]
 
     def _lay_background(self) -> None:
         """Give the scene the background of the user or of the look."""

@@ -21,6 +21,7 @@ def source():
     """What the project wrote, but for the glossary, in small letters."""
     files = [
         *ROOT.glob("docs/*.md"),
+        *ROOT.glob("docs/viewer/*.md"),
         *ROOT.glob("docs/exactness/*.md"),
         *ROOT.glob("engine/**/*.py"),
     ]

@@ -15,6 +15,7 @@ from engine3d.events import CloseRequested
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "data" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES += sorted((ROOT / "docs" / "viewer").glob("*.md"))
 RULES = sorted((ROOT / "docs" / "exactness").glob("*.md"))
 FOLDERS = [ROOT, *(ROOT / name for name in ("benchmarks", "data", "docs"))]
 FOLDERS += [

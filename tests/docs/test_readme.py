@@ -55,15 +55,15 @@ def test_the_first_commands_install_and_run():
 
 
 def test_the_page_of_the_viewer_has_all_keys():
-    lines = (ROOT / "docs" / "viewer.md").read_text(encoding="utf-8").splitlines()
-    start = lines.index("| Key | What it does |") + 2
-    rows = lines[start : lines.index("", start)]
+    text = (ROOT / "docs" / "viewer" / "keys.md").read_text(encoding="utf-8")
+    tables = re.findall(r"^\| Key \| What it does \|\n.*\n((?:\|.*\n)+)", text, re.MULTILINE)
+    rows = [row for table in tables for row in table.splitlines()]
     listed = {key for row in rows for key in row.split(" | ")[0].removeprefix("| ").split()}
     assert {key for binding in BINDINGS for key in binding.keys} <= listed
 
 
 def test_scenes_are_those_of_the_command_line():
-    lines = (ROOT / "docs" / "viewer.md").read_text(encoding="utf-8").splitlines()
+    lines = (ROOT / "docs" / "viewer" / "index.md").read_text(encoding="utf-8").splitlines()
     start = lines.index("| `--scene` | What it shows |") + 2
     expected = [f"| `{name}` | {SCENES[name].about} |" for name in DEMO_NAMES]
     assert lines[start : start + len(expected) + 1] == [*expected, ""]

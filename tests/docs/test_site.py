@@ -3,27 +3,47 @@
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
-import engine3d
+from engine3d import Canvas, Frame
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-EXAMPLES = sorted((DOCS / "examples").glob("plot_*.py"))
+EXAMPLES = sorted((DOCS / "examples").glob("*/plot_*.py"))
+MAX_LINES = 40
+
+
+def test_there_are_many_examples_and_each_has_a_number():
+    numbers = [path.stem.split("_")[1] for path in EXAMPLES]
+    assert len(EXAMPLES) >= 30 and len(set(numbers)) == len(numbers)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_examples_run_and_draw(path):
+def test_examples_run_and_draw(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     names = runpy.run_path(str(path))
-    drawn = [x for x in names.values() if isinstance(x, (engine3d.Frame, engine3d.Canvas))]
+    drawn = [np.asarray(x) for x in names.values() if isinstance(x, (Frame, Image.Image))]
+    drawn += [x.pixels for x in names.values() if isinstance(x, Canvas)]
+    drawn += [np.asarray(Image.open(path).convert("RGB")) for path in tmp_path.iterdir()]
     assert drawn, "nothing to show: the page would have no picture"
-    for picture in drawn:
-        pixels = picture.color if isinstance(picture, engine3d.Frame) else picture.pixels
+    for pixels in drawn:
         assert pixels.std() > 1.0, "a blank picture"
+        assert pixels.shape[0] * pixels.shape[1] <= 640 * 480, "examples are small and quick"
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_are_short_and_say_what_they_show(path):
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= MAX_LINES
+    title, rule, blank, first = text.split("\n")[1:5]
+    assert len(title) == len(rule) and not blank and first.startswith("This ")
 
 
 def test_every_page_has_its_place_in_the_site():
-    pages = {page.stem for page in (*DOCS.glob("*.md"), *DOCS.glob("exactness/*.md"))} - {"index"}
-    parents = ("index.md", "guides.md", "inside.md", "exactness/index.md")
+    folders = ("", "exactness/", "viewer/")
+    pages = {page.stem for folder in folders for page in DOCS.glob(f"{folder}*.md")} - {"index"}
+    parents = ("index.md", "guides.md", "inside.md", "exactness/index.md", "viewer/index.md")
     texts = [(DOCS / name).read_text(encoding="utf-8") for name in parents]
     placed = {line for text in texts for line in text.split("```{toctree}")[1].splitlines()}
     assert pages <= placed, "name it in a toctree of docs/guides.md or docs/inside.md"

@@ -277,3 +277,11 @@ def test_the_longer_side_has_one_lens():
 def test_white_points_have_a_dark_background(count):
     points = np.random.default_rng(1).normal(size=(count, 3))
     assert e3d.render(points, size=(120, 80)).color[0, 0, :3].max() < 160
+
+
+def test_a_look_names_its_theme():
+    lights = {}
+    for theme in ("auto", "light", "dark"):
+        look = e3d.Look.studio(ground=False, background=theme)
+        lights[theme] = e3d.render(e3d.box(), size=(16, 16), look=look).color[0, 0, 0]
+    assert lights["auto"] == lights["light"] > lights["dark"] + 50

@@ -51,7 +51,7 @@ def test_walking_keys_are_positions_of_letters_and_arrows():
 
 
 def test_the_manual_names_every_key():
-    manual = Path(__file__).parents[2] / "docs" / "viewer.md"
+    manual = Path(__file__).parents[2] / "docs" / "viewer" / "keys.md"
     rows = [line.split("|")[1].split() for line in manual.read_text().splitlines() if "|" in line]
     named = {key for row in rows for key in row}
     missing = {key for binding in BINDINGS for key in binding.keys} - named

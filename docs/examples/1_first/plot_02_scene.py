@@ -1,8 +1,8 @@
 """
-A first picture
-===============
+A scene of one's own
+====================
 
-A scene holds meshes, lights and a camera. Without a camera, the whole scene is shown.
+This builds a scene of a ring and a light. Without a camera, the whole scene is shown.
 """
 
 import engine3d as e3d
@@ -24,5 +24,5 @@ print(frame.color.shape, frame.color.dtype)
 # To choose the view, add a camera: ``look_at`` says where it stands.
 
 camera = e3d.PerspectiveCamera(yfov=0.7)
-pose = e3d.look_at(eye=(0.0, 0.6, 3.6), target=(0.3, 0.0, 0.0))
-nearer = e3d.render(scene, (camera, pose), size=(480, 300), samples=4, antialiasing="msaa")
+pose = e3d.look_at(eye=(1.5, 0.6, 5.0), target=(0.0, 0.0, 0.0))
+turned = e3d.render(scene, (camera, pose), size=(480, 300), samples=4, antialiasing="msaa")

@@ -2,9 +2,9 @@
 Two kinds of shadows
 ====================
 
-With ``shadow=True`` a light casts shadows from a map of depths. Their edges are soft. With
-``shadow="exact"`` it casts the shadows that rays would find. Their edges are hard, and there is
-nothing to tune.
+This draws both kinds of shadows. With ``shadow=True`` a light casts shadows from a map of depths.
+Their edges are soft. With ``shadow="exact"`` it casts the shadows that rays would find. Their
+edges are hard, and there is nothing to tune.
 """
 
 import math

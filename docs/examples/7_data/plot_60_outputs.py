@@ -2,8 +2,8 @@
 Depths, normals and identities
 ==============================
 
-Beside colour, a frame has other outputs for the same pixels: distances, normals, positions, and
-which object, material or triangle each pixel shows. They are never blended at edges.
+This asks one frame for several arrays. Beside colour, a frame has distances, normals, positions,
+and which object, material or triangle each pixel shows. They are never blended at edges.
 """
 
 import math

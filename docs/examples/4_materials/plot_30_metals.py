@@ -2,8 +2,9 @@
 Metals and lacquers in a studio
 ===============================
 
-Physically based materials mirror what is around them. ``Environment.studio()`` is a built-in room
-with lights; a picture in a file of the formats ``.hdr`` or ``.exr`` can take its place.
+This draws balls of metal and lacquer, from smooth to rough. They mirror what is around them.
+``Environment.studio()`` is a built-in room with lights; a picture in a file of the formats
+``.hdr`` or ``.exr`` can take its place.
 """
 
 import engine3d as e3d

@@ -2,8 +2,8 @@
 The same bytes everywhere
 =========================
 
-Every backend and every number of threads gives the same picture, to the bit. So a test can compare
-the hashes of pictures.
+This draws a scene with every backend and several numbers of threads: all pictures are equal, to
+the bit. So a test can compare their hashes.
 """
 
 import hashlib
@@ -11,12 +11,12 @@ import math
 
 import engine3d as e3d
 
-scene = e3d.Scene(background=(20, 24, 32), ambient=(89, 89, 97))
+scene = e3d.Scene(background=(20, 24, 32), ambient=(60, 70, 110))
 for number in range(40):
     angle = 0.157 * number
     x, z = 2.0 * e3d.linalg.cos(angle), 2.0 * e3d.linalg.sin(angle)
     scene.add(e3d.icosphere(0.25), translation=(x, 0.05 * number - 1.0, z))
-scene.add(e3d.PointLight(color=(255, 231, 188), intensity=4.0 * math.pi))
+scene.add(e3d.PointLight(color=(255, 231, 188), intensity=5.0 * math.pi))
 
 digests = {}
 for backend in e3d.backends():

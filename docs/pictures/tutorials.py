@@ -7,7 +7,7 @@
 In: the pages of docs/tutorials. The Python blocks of a page run one after another, in an empty
 folder; each picture that the page shows is one that they write, NAME.png or NAME.apng. Out: small
 WebP files in docs/tutorials/pictures/PAGE, and the digests of what was drawn, in drawn.json beside
-them.
+them. If a page has a PAGE.py beside it, that is the program of its blocks, and is written, too.
 """
 
 from __future__ import annotations
@@ -26,6 +26,8 @@ FOLDER = DOCS / "tutorials"
 PICTURES = FOLDER / "pictures"
 DIGESTS = Digests(PICTURES / "drawn.json")
 QUALITY = 82
+#: The blocks of a page that write its pictures, which are no part of its program.
+_DRAWS = re.compile(r'\bsave\w*\(.*"\w+\.a?png"')
 _SHOWN = re.compile(r"\]\(pictures/(\w+/\w+)\.webp\)")
 
 
@@ -47,6 +49,12 @@ def pages() -> dict[str, str]:
 def shown(text: str) -> list[str]:
     """Return the pictures that a page shows, as PAGE/NAME."""
     return list(dict.fromkeys(_SHOWN.findall(text)))
+
+
+def program(text: str) -> str:
+    """Return the program of a page: its Python blocks, without those that write pictures."""
+    blocks = [block for language, block in BLOCK.findall(text) if language == "python"]
+    return "\n\n".join(block for block in blocks if not _DRAWS.search(block))
 
 
 def draw(page: str) -> dict[str, Picture]:
@@ -100,6 +108,11 @@ def main() -> int:
         parser.error(f"no such page: {', '.join(sorted(unknown))}")
     stale = []
     for page in arguments.pages or pages():
+        source = FOLDER / f"{page}.py"
+        if source.exists() and not arguments.check:
+            source.write_text(program(pages()[page]))
+        elif source.exists() and source.read_text() != program(pages()[page]):
+            stale.append(source.name)
         for name, picture in draw(page).items():
             if not arguments.check:
                 save(picture, name)
@@ -108,7 +121,7 @@ def main() -> int:
     if not arguments.check:
         delete_others()
     if stale:
-        print(f"not what the engine draws: {', '.join(stale)}", file=sys.stderr)
+        print(f"not what the pages say: {', '.join(stale)}", file=sys.stderr)
     return 1 if stale else 0
 
 

@@ -16,7 +16,10 @@ import pytest
 import engine3d
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md"]
+PAGES += sorted(
+    path for folder in ("docs", "docs/tutorials") for path in (ROOT / folder).glob("*.md")
+)
 
 # What editors and checkers are to know.
 RIGHT = """

@@ -16,6 +16,7 @@ from engine3d.events import CloseRequested
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "data" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RULES = sorted((ROOT / "docs" / "exactness").glob("*.md"))
+TUTORIALS = sorted((ROOT / "docs" / "tutorials").glob("*.md"))
 FOLDERS = [ROOT, *(ROOT / name for name in ("benchmarks", "data", "docs"))]
 FOLDERS += [
     path
@@ -29,7 +30,7 @@ def page_id(page):
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("page", [*PAGES, *RULES], ids=page_id)
+@pytest.mark.parametrize("page", [*PAGES, *RULES, *TUTORIALS], ids=page_id)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
         path = target.partition("#")[0]

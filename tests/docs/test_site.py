@@ -22,8 +22,14 @@ def test_examples_run_and_draw(path):
 
 
 def test_every_page_has_its_place_in_the_site():
-    pages = {page.stem for page in (*DOCS.glob("*.md"), *DOCS.glob("exactness/*.md"))} - {"index"}
-    parents = ("index.md", "guides.md", "inside.md", "exactness/index.md")
+    folders = (DOCS, DOCS / "exactness", DOCS / "tutorials")
+    pages = {page.stem for folder in folders for page in folder.glob("*.md")} - {"index"}
+    parents = ("index.md", "guides.md", "inside.md")
+    parents += tuple(f"{name}/index.md" for name in ("api", "exactness", "tutorials"))
     texts = [(DOCS / name).read_text(encoding="utf-8") for name in parents]
-    placed = {line for text in texts for line in text.split("```{toctree}")[1].splitlines()}
-    assert pages <= placed, "name it in a toctree of docs/guides.md or docs/inside.md"
+    placed = {
+        line.rpartition("/")[2]
+        for text in texts
+        for line in text.split("```{toctree}")[1].splitlines()
+    }
+    assert pages <= placed, "name it in a toctree, such as that of docs/guides.md or docs/inside.md"

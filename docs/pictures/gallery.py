@@ -11,6 +11,8 @@ import os
 import re
 import shlex
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +21,7 @@ from engine3d.apps.cli import main as engine3d
 
 DOCS = Path(__file__).resolve().parents[1]
 _FIRST = "Five lines\n"
-_BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```", re.M | re.S)
+BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```", re.M | re.S)
 _SAVED = re.compile(r"\b([\w-]+)\.png\b")
 
 
@@ -29,7 +31,7 @@ def programs() -> dict[str, list[tuple[str, str]]]:
     sections = (DOCS / "gallery.md").read_text(encoding="utf-8").split("\n## ")[1:]
     readme = (DOCS.parent / "README.md").read_text(encoding="utf-8").split("\n## ")
     for section in (*sections, *(one for one in readme if one.startswith(_FIRST))):
-        blocks = _BLOCK.findall(section)
+        blocks = BLOCK.findall(section)
         names = [name for _, text in blocks for name in _SAVED.findall(text)]
         if names:
             found[names[-1]] = blocks
@@ -40,13 +42,20 @@ def draw(name: str) -> np.ndarray:
     """Return the picture that a section's blocks write, as (H, W, 3) uint8."""
     from PIL import Image
 
+    with empty_folder():
+        _run(name)
+        with Image.open(f"{name}.png") as image:
+            return np.array(image.convert("RGB"))
+
+
+@contextmanager
+def empty_folder() -> Iterator[None]:
+    """Work in a new folder, which is deleted afterwards."""
     before = os.getcwd()
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         try:
-            _run(name)
-            with Image.open(f"{name}.png") as image:
-                return np.array(image.convert("RGB"))
+            yield
         finally:
             os.chdir(before)
 

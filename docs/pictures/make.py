@@ -12,8 +12,6 @@ out on every machine and backend; a test compares them.
 from __future__ import annotations
 
 import argparse
-import hashlib
-import json
 import math
 import sys
 from functools import partial
@@ -22,6 +20,7 @@ from pathlib import Path
 
 import gallery
 import numpy as np
+from digests import Digests
 
 import engine3d as e3d
 from engine3d import linalg
@@ -362,17 +361,7 @@ PICTURES = {
 #: Those that are compressed, of which drawn.json has digests.
 SMALL = ("models", "sheet", *gallery.programs())
 QUALITY = 82
-DIGESTS = FOLDER / "drawn.json"
-
-
-def digests() -> dict[str, str]:
-    return json.loads(DIGESTS.read_text()) if DIGESTS.exists() else {}
-
-
-def digest(picture: np.ndarray) -> str:
-    """Return what tells a picture from others."""
-    pixels = np.ascontiguousarray(picture[:, :, :3])
-    return hashlib.sha256(str(pixels.shape).encode() + pixels.tobytes()).hexdigest()
+DIGESTS = Digests(FOLDER / "drawn.json")
 
 
 def save(picture: np.ndarray, name: str) -> None:
@@ -383,8 +372,7 @@ def save(picture: np.ndarray, name: str) -> None:
     Image.fromarray(picture[:, :, :3]).save(path, method=6, **how)
     print(f"{path.name}: {picture.shape[1]}x{picture.shape[0]}, {path.stat().st_size:,} bytes")
     if name in SMALL:
-        known = digests() | {name: digest(picture)}
-        DIGESTS.write_text(json.dumps(known, indent=2, sort_keys=True) + "\n")
+        DIGESTS.record(name, picture)
 
 
 def differs(picture: np.ndarray, name: str) -> bool:
@@ -392,7 +380,7 @@ def differs(picture: np.ndarray, name: str) -> bool:
     from PIL import Image
 
     if name in SMALL:
-        return digests().get(name) != digest(picture)
+        return not DIGESTS.knows(name, picture)
     with Image.open(FOLDER / f"{name}.webp") as image:
         return not np.array_equal(np.asarray(image.convert("RGB")), picture[:, :, :3])
 

@@ -17,6 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "data" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 PAGES += sorted((ROOT / "docs" / "viewer").glob("*.md"))
 RULES = sorted((ROOT / "docs" / "exactness").glob("*.md"))
+TUTORIALS = sorted((ROOT / "docs" / "tutorials").glob("*.md"))
 FOLDERS = [ROOT, *(ROOT / name for name in ("benchmarks", "data", "docs"))]
 FOLDERS += [
     path
@@ -30,7 +31,7 @@ def page_id(page):
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("page", [*PAGES, *RULES], ids=page_id)
+@pytest.mark.parametrize("page", [*PAGES, *RULES, *TUTORIALS], ids=page_id)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
         path = target.partition("#")[0]

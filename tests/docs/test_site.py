@@ -41,9 +41,14 @@ def test_examples_are_short_and_say_what_they_show(path):
 
 
 def test_every_page_has_its_place_in_the_site():
-    folders = ("", "exactness/", "viewer/")
+    folders = ("", "exactness/", "tutorials/", "viewer/")
     pages = {page.stem for folder in folders for page in DOCS.glob(f"{folder}*.md")} - {"index"}
-    parents = ("index.md", "guides.md", "inside.md", "exactness/index.md", "viewer/index.md")
+    parents = ("index.md", "guides.md", "inside.md")
+    parents += tuple(f"{name}/index.md" for name in ("api", "exactness", "tutorials", "viewer"))
     texts = [(DOCS / name).read_text(encoding="utf-8") for name in parents]
-    placed = {line for text in texts for line in text.split("```{toctree}")[1].splitlines()}
-    assert pages <= placed, "name it in a toctree of docs/guides.md or docs/inside.md"
+    placed = {
+        line.rpartition("/")[2]
+        for text in texts
+        for line in text.split("```{toctree}")[1].splitlines()
+    }
+    assert pages <= placed, "name it in a toctree, such as that of docs/guides.md or docs/inside.md"

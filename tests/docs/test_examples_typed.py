@@ -151,6 +151,8 @@ def run_mypy(folder, monkeypatch, cache):
         "--allow-untyped-defs",  # an example says what it does, not what its functions take
         "--allow-untyped-calls",
         "--allow-any-generics",
+        "--allow-redefinition-new",
+        "--local-partial-types",
         "--hide-error-context",
         "--disable-error-code=import-untyped",
         "--config-file=",

@@ -20,6 +20,7 @@ from .._native import canvas as native
 from .._native.images import encode_png
 from ..base.numbers import as_array, floats, real, shown
 from ..base.validation import choose, flag
+from ..choices import ColorLike
 from ..errors import InvalidArgumentError
 from ..model.materials.colors import eight_bit_or_linear, holds_colors, srgb_bytes
 from ..model.materials.display_colors import rgba_codes
@@ -27,7 +28,6 @@ from ..model.materials.display_colors import rgba_codes
 if TYPE_CHECKING:
     from PIL import Image
 
-Color = Sequence[int]
 LineAlgorithm = Literal["bresenham", "dda"]
 TriangleAlgorithm = Literal["edge", "scanline"]
 
@@ -109,7 +109,7 @@ class Canvas:
     def _repr_png_(self) -> bytes | None:
         return encode_png(np.ascontiguousarray(self._pixels)) if self._pixels.size else None
 
-    def clear(self, color: Color = (0, 0, 0, 255)) -> None:
+    def clear(self, color: ColorLike = (0, 0, 0, 255)) -> None:
         """Overwrite every pixel, alpha included.
 
         Parameters
@@ -119,12 +119,12 @@ class Canvas:
         """
         self._surface.clear(_color_bytes(color))
 
-    def point(self, x: float, y: float, color: Color) -> None:
+    def point(self, x: float, y: float, color: ColorLike) -> None:
         """Draw the pixel that contains (x, y)."""
         x, y = _numbers("x and y", x, y)
         self._surface.point(x, y, _color_bytes(color))
 
-    def points(self, xy: ArrayLike, color: Color | NDArray[np.uint8]) -> None:
+    def points(self, xy: ArrayLike, color: ColorLikeLike) -> None:
         """Draw many points in one call.
 
         Parameters
@@ -143,7 +143,7 @@ class Canvas:
         y0: float,
         x1: float,
         y1: float,
-        color: Color,
+        color: ColorLike,
         *,
         width: float = 1,
         algorithm: LineAlgorithm = "bresenham",
@@ -177,7 +177,7 @@ class Canvas:
     def lines(
         self,
         xyxy: ArrayLike,
-        color: Color | NDArray[np.uint8],
+        color: ColorLikeLike,
         *,
         width: float = 1,
         algorithm: LineAlgorithm = "bresenham",
@@ -201,7 +201,7 @@ class Canvas:
     def polyline(
         self,
         xy: ArrayLike,
-        color: Color,
+        color: ColorLike,
         *,
         closed: bool = False,
         width: float = 1,
@@ -232,7 +232,7 @@ class Canvas:
         a: Sequence[float],
         b: Sequence[float],
         c: Sequence[float],
-        color: Color,
+        color: ColorLike,
         *,
         algorithm: TriangleAlgorithm = "edge",
     ) -> None:
@@ -259,7 +259,7 @@ class Canvas:
     def triangles(
         self,
         xyxyxy: ArrayLike,
-        color: Color | NDArray[np.uint8],
+        color: ColorLikeLike,
         *,
         algorithm: TriangleAlgorithm = "edge",
     ) -> None:
@@ -285,7 +285,7 @@ class Canvas:
         y: float,
         width: float,
         height: float,
-        color: Color,
+        color: ColorLike,
         *,
         fill: bool = True,
     ) -> None:
@@ -311,10 +311,10 @@ class Canvas:
         x: float,
         y: float,
         string: str,
-        color: Color,
+        color: ColorLike,
         *,
         scale: int = 1,
-        background: Color | None = None,
+        background: ColorLike | None = None,
     ) -> None:
         """Write text in the built-in bitmap font, whose cells are 8 x 14 pixels.
 
@@ -379,7 +379,7 @@ def _given_pixels(*args: Any) -> NDArray[np.uint8]:
     return args[0]
 
 
-def _color_bytes(color: Color | NDArray[np.uint8], what: str = "color") -> bytes:
+def _color_bytes(color: ColorLikeLike, what: str = "color") -> bytes:
     try:
         rgba = bytes(tuple(color))
     except (TypeError, ValueError):  # a word, or floats
@@ -393,7 +393,7 @@ def _color_bytes(color: Color | NDArray[np.uint8], what: str = "color") -> bytes
     return rgba
 
 
-def _colors_bytes(color: Color | NDArray[np.uint8], count: int) -> bytes | NDArray[np.uint8]:
+def _colors_bytes(color: ColorLikeLike, count: int) -> bytes | NDArray[np.uint8]:
     """Return 4 bytes for all primitives, or 4 for each of them."""
     if isinstance(color, str) or as_array(color, "color").ndim != 2 and not holds_colors(color):
         return _color_bytes(color)

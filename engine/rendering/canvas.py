@@ -124,7 +124,7 @@ class Canvas:
         x, y = _numbers("x and y", x, y)
         self._surface.point(x, y, _color_bytes(color))
 
-    def points(self, xy: ArrayLike, color: ColorLikeLike) -> None:
+    def points(self, xy: ArrayLike, color: ColorLike) -> None:
         """Draw many points in one call.
 
         Parameters
@@ -177,7 +177,7 @@ class Canvas:
     def lines(
         self,
         xyxy: ArrayLike,
-        color: ColorLikeLike,
+        color: ColorLike,
         *,
         width: float = 1,
         algorithm: LineAlgorithm = "bresenham",
@@ -259,7 +259,7 @@ class Canvas:
     def triangles(
         self,
         xyxyxy: ArrayLike,
-        color: ColorLikeLike,
+        color: ColorLike,
         *,
         algorithm: TriangleAlgorithm = "edge",
     ) -> None:
@@ -379,7 +379,7 @@ def _given_pixels(*args: Any) -> NDArray[np.uint8]:
     return args[0]
 
 
-def _color_bytes(color: ColorLikeLike, what: str = "color") -> bytes:
+def _color_bytes(color: ColorLike, what: str = "color") -> bytes:
     try:
         rgba = bytes(tuple(color))
     except (TypeError, ValueError):  # a word, or floats
@@ -393,7 +393,7 @@ def _color_bytes(color: ColorLikeLike, what: str = "color") -> bytes:
     return rgba
 
 
-def _colors_bytes(color: ColorLikeLike, count: int) -> bytes | NDArray[np.uint8]:
+def _colors_bytes(color: ColorLike, count: int) -> bytes | NDArray[np.uint8]:
     """Return 4 bytes for all primitives, or 4 for each of them."""
     if isinstance(color, str) or as_array(color, "color").ndim != 2 and not holds_colors(color):
         return _color_bytes(color)

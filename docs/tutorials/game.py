@@ -24,13 +24,14 @@ class Game:
     def __init__(self):
         self.scene = e3d.Scene(background=e3d.Gradient("#8fb4d0", "#dfe9f0"), ambient="#8f99a6")
         self.scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.4), "#fff0d8", 2.4, shadow=True))
-        eye = e3d.look_at((0, 10.5, 14), (0, -0.9, 0))
-        self.scene.add(e3d.PerspectiveCamera(0.53), pose=eye)
+        pose = e3d.look_at((0, 10.5, 14), (0, -0.9, 0))
+        self.scene.add(e3d.PerspectiveCamera(0.53), pose=pose)
         self.scene.add(TOP, translation=(0, -0.2, 0))
         self.scene.add(RIM, pose=linalg.rotation_x(np.pi / 2))
         self.ball = self.scene.add(GLOBE, translation=(0, BALL, 0))
         self.speed, self.time = np.zeros(3), 0.0
-        self.coins, random = [], np.random.default_rng(4)
+        random = np.random.default_rng(4)
+        self.coins: list[e3d.Node] = []
         while len(self.coins) < COINS:
             place = random.uniform(-TABLE, TABLE, 3) * (1, 0, 1)
             if 1.5 < linalg.length(place) < TABLE - 1.0:
@@ -63,8 +64,7 @@ def roll(ball, way):
     ball.translation = ball.translation + way
     far = linalg.length(way)
     if far > 0:
-        axis = way[2] / far, 0, -way[0] / far
-        turn = linalg.quaternion_from_axis_angle(axis, far / BALL)
+        turn = linalg.quaternion_from_axis_angle((way[2], 0, -way[0]), far / BALL)
         ball.rotation = linalg.quaternion_multiply(turn, ball.rotation)
 
 

@@ -117,7 +117,7 @@ class View(RemoteFrameBuffer):
         width, height = check_size(size)
         check_motion(update, "update")
         taken = take_marks(dict(marks))
-        settings = settings_for(thing, look, marks=taken)
+        settings = settings_for(look, marks=taken)
         viewed = viewed_thing(thing, title=None, up=up, update=update, period=period, marks=taken)
         if viewed is None:
             raise InvalidArgumentError(

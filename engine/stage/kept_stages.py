@@ -114,7 +114,7 @@ class KeptStages:
                 f"not {type(thing).__name__}"
             )
         show_numbers(viewed, marks)
-        settings = settings_for(thing, self._look, options, self._material, marks)
+        settings = settings_for(self._look, options, self._material, marks)
         size = self._renderer.width, self._renderer.height
         view_renderer = ViewRenderer(
             viewed,

@@ -24,6 +24,7 @@ from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
 from .coloring import Coloring
 from .overlays.numbers import Numbers
+from .scenes_of_things import is_lit
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
@@ -151,7 +152,8 @@ def view_document(
         "model" if path is None else printable(os.path.basename(path)),
         up=document.up,
         update=None if scene.animator is None else scene.animator.seek,
-        themed=document.scene is None,
+        themed=document.scene is None or not is_lit(scene),
+        is_scene=document.scene is not None,
         # glTF defines the visible sides per material; other files do not, or are often wrong.
         appearance={"cull": "back" if document.tree is not None else "auto"},
         path=path,

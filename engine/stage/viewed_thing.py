@@ -12,7 +12,7 @@ from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from .coloring import show_numbers
 from .filtering import Filtering
-from .look import Look, LookChoice, check_look
+from .look import LookChoice, check_look
 from .open_models import open_models
 from .overlays.numbers import NO_MARKS, Marks
 from .played_clips import play_clips
@@ -20,8 +20,6 @@ from .scenes_of_things import is_lit, scene_of
 from .stage_settings import Settings
 from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS
-
-_BLACK = (0, 0, 0)  # the background of new scenes
 
 
 def viewed_of(thing: Any) -> ViewedScene | None:
@@ -38,7 +36,8 @@ def viewed_of(thing: Any) -> ViewedScene | None:
     if scene is None:
         return None
     title = getattr(thing, "name", "") or type(thing).__name__.lower()
-    return ViewedScene(scene, title, themed=not is_lit(scene))
+    is_scene = isinstance(thing, Scene)
+    return ViewedScene(scene, title, themed=not is_lit(scene), is_scene=is_scene)
 
 
 def viewed_thing(
@@ -70,18 +69,15 @@ def viewed_thing(
 
 
 def settings_for(
-    thing: Any,
     look: LookChoice,
     options: Mapping[str, Any] | None = None,
     material: Material | None = None,
     marks: Marks = NO_MARKS,
 ) -> Settings:
-    """Return the settings with which a thing wears a look, as in ``engine3d render``.
+    """Return the settings with which things wear a look, as in ``engine3d render``.
 
     Parameters
     ----------
-    thing : object
-        What `viewed_of` takes. A scene keeps the background that a program gave it.
     look : str or Look
     options : mapping, optional
         Drawing options that override those of the look.
@@ -94,26 +90,14 @@ def settings_for(
     ------
     InvalidArgumentError
     """
-    # The textures of a program's own meshes must not change.
-    filtering = Filtering(is_usual=is_file(thing))
-    worn = _fitting_look(check_look(look), thing)
     return Settings(
         dict(options or {}),
-        look=worn,
+        look=check_look(look),
         material=material,
-        filtering=filtering,
+        filtering=Filtering(is_usual=True),
         bar=marks.bar,
         axes_grid=marks.axes_grid,
     )
-
-
-def _fitting_look(look: Look, thing: Any) -> Look:
-    """Return a look without a background of its own, if the thing is a scene that has one."""
-    if not isinstance(thing, Scene) or look.background != "auto":
-        return look
-    if thing.background is None or thing.background != _BLACK:
-        return look.replace(background=None if thing.background is None else "scene")
-    return look
 
 
 def is_file(thing: Any) -> bool:

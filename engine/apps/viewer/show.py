@@ -104,7 +104,7 @@ def show(
     taken = take_marks(dict(marks))
     motion = {"title": title, "up": up, "update": update, "period": period}
     try:
-        _show(thing, size, format, settings_for(thing, look, marks=taken), marks=taken, **motion)
+        _show(thing, size, format, settings_for(look, marks=taken), marks=taken, **motion)
     except DisplayError as error:
         if not _in_a_kernel():
             raise

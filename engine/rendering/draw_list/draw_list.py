@@ -19,6 +19,7 @@ from ...base.dirty_tracking import Watch
 from ...choices import ColorSpace, Normals
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
+from ...model.materials.textures import Reading
 from ...model.motion.posed_mesh import PosedMesh
 from ...model.scene.instances import InstancedMesh, flat_poses, shown_ids
 from ...model.scene.staged_data import AnyData
@@ -71,6 +72,7 @@ class DrawList:
         self._objects_version: Any = -1  # version of the objects, from either kind of scene
         self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
         self._untextured: frozenset[Material] = frozenset()
+        self._reading: Reading | None = None
         # The numbers of closed objects.
         self._closed: set[int] = set()
         self._with_holes: set[int] = set()  # the closed objects that have holes
@@ -178,6 +180,7 @@ class DrawList:
         self._data = lambda: None  # if anything below raises, the list is not current
         self._listing = listing
         self._untextured = self._materials.untextured = data.untextured
+        self._reading = self._materials.reading = data.reading
         if numbers is None:
             self._rebuild(data)
         else:
@@ -222,7 +225,7 @@ class DrawList:
         self.lights.forget()
         self._watch, self._changed = Watch(), []
         self._materials = MaterialList(self.native, self._color_space, self._watch)
-        self._materials.untextured = self._untextured
+        self._materials.untextured, self._materials.reading = self._untextured, self._reading
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False
         self._make_textures(data)

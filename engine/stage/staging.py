@@ -85,7 +85,8 @@ class Staging:
         if settings.exposure is not None:
             scene.exposure = settings.exposure
         self._lay_background()
-        settings.surroundings.put(scene, settings.look.environment)
+        reflects = settings.look.environment and not self._is_lit_scene
+        settings.surroundings.put(scene, reflects)
         self._lay_fog()
         self.stand(up, lights)
 

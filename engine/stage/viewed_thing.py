@@ -10,6 +10,7 @@ from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
+from .appearance import BARE
 from .coloring import show_numbers
 from .filtering import Filtering
 from .look import LookChoice, check_look
@@ -22,22 +23,30 @@ from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS
 
 
+def comes_from_file(thing: Any) -> bool:
+    """Return whether a thing is a path, a file object, or a viewed scene made of one."""
+    return is_file(thing) or (isinstance(thing, ViewedScene) and thing.format is not None)
+
+
 def viewed_of(thing: Any) -> ViewedScene | None:
     """Return the viewed scene of a thing; None for unsuitable things.
 
     Parameters
     ----------
     thing : path-like, binary file object, or what `scene_of` takes
-        A file is opened as by ``engine3d render``.
+        A file is opened as by ``engine3d render``. A viewed scene is returned as it is.
     """
+    if isinstance(thing, ViewedScene):
+        return thing
     if is_file(thing):
         return open_models([thing])
     scene = scene_of(thing)
     if scene is None:
         return None
     title = getattr(thing, "name", "") or type(thing).__name__.lower()
-    is_scene = isinstance(thing, Scene)
-    return ViewedScene(scene, title, themed=not is_lit(scene), is_scene=is_scene)
+    is_scene, is_dressed = isinstance(thing, Scene), not is_lit(scene)
+    appearance = dict(BARE) if is_scene and not is_dressed else {}
+    return ViewedScene(scene, title, themed=is_dressed, is_scene=is_scene, appearance=appearance)
 
 
 def viewed_thing(

@@ -199,5 +199,3 @@ def _absorption(left: float, depth: float) -> float:
 def _space(slot: str, color_space: ColorSpace) -> ColorSpace:
     row = PARAMETERS[slot]
     return color_space if isinstance(row, TextureSlot) and row.is_color else "linear"
-
-

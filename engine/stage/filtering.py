@@ -1,4 +1,4 @@
-"""How pictures read textures: as the user chose, else as the texture says, else as the look does."""
+"""How pictures read textures: as the user chose, as the texture says, or as looks do."""
 
 from __future__ import annotations
 

@@ -33,8 +33,8 @@ from ..rendering.turn import RendererTurn
 from .appearance import BARE, DARK
 from .kept_stages import KeptStages, Stage
 from .look import Look, LookChoice, check_look
-from .overlays.numbers import MarkKeywords, take_marks
 from .near_origin import pose_from_file
+from .overlays.numbers import MarkKeywords, take_marks
 from .painting import check_material
 from .scenes_of_things import is_lit
 from .viewed_thing import comes_from_file, is_file
@@ -206,7 +206,7 @@ class Renderer(rendering.Renderer):
             its subtree is drawn, at its world pose.
         camera : None, Node or (Camera, pose)
             A node of this scene. None uses its first visible camera; without one, all of the thing
-            shows. The cameras of files count only if they are loaded as scenes. For a file, the pose
+            shows. The cameras of files count only if they are loaded as scenes. The pose for a file
             is in its coordinates.
         out : Frame, optional
             An earlier frame of the same size to draw into; its outputs are redrawn, and it is

@@ -19,8 +19,8 @@ from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
 from .appearance import Appearance
 from .chosen_surroundings import fog_color
-from .lighting import NO_LIGHTS, OWN_LIGHTS, Lighting, OnlyLight, placed_light
 from .filtering import Filtering
+from .lighting import NO_LIGHTS, OWN_LIGHTS, Lighting, OnlyLight, placed_light
 from .look import THEMED, Look
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid

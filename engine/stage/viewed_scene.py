@@ -79,9 +79,9 @@ class ViewedScene:
     themed : bool
         Whether it wears a look, whose background may follow the viewer's theme.
     is_scene : bool
-        Whether it is a program's scene, perhaps from a scene file. Then a look leaves its background
-        alone, unless that is the one of new scenes, and a scene with light of its own gets no other
-        light, and its textures are read as they say.
+        Whether it is a program's scene, perhaps from a scene file. A look leaves its background
+        alone, unless that is the one of new scenes. With light of its own, it gets no other light,
+        and its textures are read as they say.
     path : str or None
         The file it came from.
     format : str or None

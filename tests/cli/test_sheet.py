@@ -49,11 +49,15 @@ def test_looks_colours_and_numbers_are_those_of_python(tmp_path):
         ("--look", "plain"): {"look": "plain"},
         ("--color", "red"): {"material": e3d.Material(color="red")},
         ("--coloring-array", "y", "--range", "-1,1", "-b"): {
-            **{"color_by": "y", "clim": (-1, 1), "bar": True}
+            "color_by": "y",
+            "clim": (-1, 1),
+            "bar": True,
         },
         ("-s", "--axes-grid"): {"colormap": "viridis", "axes_grid": True},
         ("--colormap", "gray", "-y", "0", "--coloring-array", "normals"): {
-            **{"color_by": "normals", "colormap": "gray", "component": 0}
+            "color_by": "normals",
+            "colormap": "gray",
+            "component": 0,
         },
     }
     for options, keywords in rows.items():

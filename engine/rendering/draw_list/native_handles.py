@@ -1,8 +1,8 @@
 """Native handles of meshes, textures and environments, created on demand and cached.
 
 In: `Mesh`, `Texture`, `Environment`. Out: their native handles, recreated when arrays change (a
-texture has one for each way to decode it, and one more if pictures read it otherwise than it says), and freed with the object. Arrays that only some
-pictures need (normals, edges) are added to a mesh's handle on demand.
+texture has one for each way to decode it, and for each to read it), and freed with the object.
+Arrays that only some pictures need (normals, edges) are added to a mesh's handle on demand.
 """
 
 from __future__ import annotations

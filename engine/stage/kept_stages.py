@@ -21,11 +21,11 @@ from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
+from ..model.scene.scene_changes import SceneChanges
 from ..rendering.renderer import Renderer
 from .coloring import show_numbers
 from .look import Look
 from .overlays.numbers import NO_MARKS, Marks
-from .scene_changes import SceneChanges
 from .view_renderer import ViewRenderer
 from .viewed_thing import settings_for, viewed_of
 from .views.first_view import FirstView

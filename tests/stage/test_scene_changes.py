@@ -1,11 +1,12 @@
-"""A kept renderer sees each change of a dressed scene, and looks for changes without visiting all."""
+"""A kept renderer sees each change of a dressed scene, and looks without visiting all of it."""
 
 import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.stage import ground_shadow, scene_changes
-from engine3d.stage.scene_changes import SceneChanges
+from engine3d.model.scene import scene_changes
+from engine3d.model.scene.scene_changes import SceneChanges
+from engine3d.stage import ground_shadow
 
 SIZE = (64, 48)
 

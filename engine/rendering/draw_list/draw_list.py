@@ -71,8 +71,8 @@ class DrawList:
         self._data: Callable[[], AnyData | None] = lambda: None
         self._objects_version: Any = -1  # version of the objects, from either kind of scene
         self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
-        self._untextured: frozenset[Material] = frozenset()
-        self._reading: Reading | None = None
+        # Of the scene: materials without textures, and how textures are read.
+        self._textures: tuple[frozenset[Material], Reading | None] = frozenset(), None
         # The numbers of closed objects.
         self._closed: set[int] = set()
         self._with_holes: set[int] = set()  # the closed objects that have holes
@@ -179,8 +179,8 @@ class DrawList:
         numbers = self._numbers_that_changed(data) if same else None
         self._data = lambda: None  # if anything below raises, the list is not current
         self._listing = listing
-        self._untextured = self._materials.untextured = data.untextured
-        self._reading = self._materials.reading = data.reading
+        self._textures = data.untextured, data.reading
+        self._materials.untextured, self._materials.reading = self._textures
         if numbers is None:
             self._rebuild(data)
         else:
@@ -225,7 +225,7 @@ class DrawList:
         self.lights.forget()
         self._watch, self._changed = Watch(), []
         self._materials = MaterialList(self.native, self._color_space, self._watch)
-        self._materials.untextured, self._materials.reading = self._untextured, self._reading
+        self._materials.untextured, self._materials.reading = self._textures
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False
         self._make_textures(data)

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..base.dirty_tracking import Watch
-from ..model.scene.scene import Scene
-from ..model.scene.surroundings import SCENE_VALUES
-from ..model.scene.usage import uses_in
+from ...base.dirty_tracking import Watch
+from .scene import Scene
+from .surroundings import SCENE_VALUES
+from .usage import uses_in
 
 
 class SceneChanges:

@@ -15,10 +15,11 @@ from typing import Any
 import numpy as np
 
 from ....base import linalg
-from ....choices import Mode
+from ....choices import LookName, Mode
 from ....errors import Engine3DError
 from ....io.loaders import load_mesh, load_texture
 from ....model.materials.material import Material
+from ....model.scene.cameras import Camera, PerspectiveCamera
 from ....model.scene.nodes import Node
 from ....model.scene.scene import Scene
 from ....stage.views.orbit import OrbitController
@@ -95,6 +96,11 @@ class Workspace:
     orbit : OrbitController
     mode : Mode
     wireframe : bool
+    look : {"studio", "plain"} or None
+        The look of a scene without light of its own. None is ``"studio"`` as rendered; else it is
+        ``"plain"``, which costs nothing when a node is dragged.
+    as_rendered : bool
+        Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
     tools : Tools
     panels : Panels
     plays : bool
@@ -118,6 +124,8 @@ class Workspace:
     def __init__(self) -> None:
         self.mode: Mode = "lit"
         self.wireframe = False
+        self.look: LookName | None = None
+        self.as_rendered = False
         self.tools = Tools()
         self.panels = Panels()
         self.plays = False
@@ -301,6 +309,18 @@ class Workspace:
         """Return a key shared by all commands of one mouse drag."""
         self._drags += 1
         return self._drags
+
+    @property
+    def worn_look(self) -> LookName:
+        """The look that the view has."""
+        return self.look or ("studio" if self.as_rendered else "plain")
+
+    def camera(self) -> tuple[Camera, np.ndarray]:
+        """Return the camera of the view and its pose, for `engine3d.render`."""
+        camera = self.view.camera(self.bounds)
+        if isinstance(camera, PerspectiveCamera):
+            camera.reversed_depth = True
+        return camera, self.view.pose()
 
     @property
     def bounds(self) -> Sphere:

@@ -139,7 +139,7 @@ def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] |
     size = size or SIZE
     with (
         Window(*size, f"{viewed.title} - engine3d") as window,
-        ViewRenderer(viewed, settings, size) as view_renderer,
+        ViewRenderer(viewed, settings, size, antialiasing="msaa") as view_renderer,
     ):
         view = view_of_scene(view_renderer)
         try:

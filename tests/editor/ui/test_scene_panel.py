@@ -34,7 +34,7 @@ def shown(editor):
         editor.workspace.scene,
         editor.workspace.camera(),
         size=size,
-        look=editor.workspace.worn_look,
+        look=editor.workspace.display.worn_look,
     )
     return editor._pixels[y : y + size[1], x : x + size[0]], drawn.color
 
@@ -55,7 +55,11 @@ def test_the_view_as_rendered_is_what_render_draws(editor, look, is_lit):
     if not is_lit:
         put_out(workspace)
     before = editor._scene._frame.color.copy()
-    workspace.look, workspace.as_rendered, workspace.wireframe = look, True, True
+    workspace.display.look, workspace.display.as_rendered, workspace.display.wireframe = (
+        look,
+        True,
+        True,
+    )
     workspace.tools.chosen = "move"
     workspace.document.selection.set([find(editor, "Smoke")])
     for orthographic in (False, True):
@@ -63,7 +67,7 @@ def test_the_view_as_rendered_is_what_render_draws(editor, look, is_lit):
         settle(editor)
         window, drawn = shown(editor)
         assert np.array_equal(window, drawn)
-        assert is_lit or not np.array_equal(before, drawn) or workspace.worn_look == "plain"
+        assert is_lit or not np.array_equal(before, drawn) or workspace.display.worn_look == "plain"
     click(editor, *middle_of(editor, find(editor, "Cab")))
     assert workspace.document.selection.nodes == (find(editor, "Cab"),)
     height, width = drawn.shape[:2]
@@ -80,13 +84,13 @@ def test_a_look_dresses_the_view_that_one_works_in(editor):
     pictures = []
     for look in (None, "studio", "plain"):
         for mode in ("lit", "normal"):
-            workspace.look, workspace.mode = look, mode
+            workspace.display.look, workspace.display.mode = look, mode
             settle(editor)
             pictures.append(editor._scene._frame.color.tobytes())
     assert pictures[:2] == pictures[4:]
     assert not {*pictures[:2]} & {*pictures[2:4]}
     workspace.document.selection.set([find(editor, "Smoke")])
-    workspace.look, workspace.mode = "studio", "lit"
+    workspace.display.look, workspace.display.mode = "studio", "lit"
     settle(editor)
     assert editor._scene._frame.color.tobytes() not in pictures  # it has an outline
 

@@ -101,7 +101,7 @@ class ScenePanel:
         hovered = self._is_hovered = imgui.is_item_hovered()
         self._corner = corner
         captured = False
-        if not self._workspace.as_rendered:
+        if not self._workspace.display.as_rendered:
             self._overlays.draw(self._frame, corner)
             self._draw_times(corner)
             captured = self._gizmo.draw(corner, size)
@@ -111,8 +111,8 @@ class ScenePanel:
     def _render(self, size: tuple[int, int]) -> None:
         workspace = self._workspace
         key = (
-            *(size, workspace.mode, workspace.wireframe, workspace.changes),
-            *(workspace.look, workspace.as_rendered),
+            *(size, workspace.display.mode, workspace.display.wireframe, workspace.changes),
+            *(workspace.display.look, workspace.display.as_rendered),
             *(workspace.view.pose().tobytes(), workspace.view.orthographic),
             *(workspace.view.distance, workspace.document.selection.version),
             *(workspace.scene, workspace.scene.data.arrays.changes),
@@ -122,7 +122,7 @@ class ScenePanel:
         start = time.perf_counter()
         self._frame = frame = self._pictures.draw(size)
         self._seconds = time.perf_counter() - start
-        ids = [] if workspace.as_rendered else self._selected_ids()
+        ids = [] if workspace.display.as_rendered else self._selected_ids()
         if ids:
             outline_pixels(frame, np.isin(frame.object_id, ids))
         if not self._number:

@@ -30,21 +30,21 @@ class ScenePictures:
         """Return the frame of the workspace's view."""
         workspace = self._workspace
         renderer, camera = self._renderer_for(size), workspace.camera()
-        if workspace.as_rendered:
+        if workspace.display.as_rendered:
             return renderer.render(workspace.scene, camera, outputs=CLICK_OUTPUTS)
         return renderer.render(
             workspace.scene,
             camera,
-            mode=workspace.mode,
-            wireframe="overlay" if workspace.wireframe else None,
+            mode=workspace.display.mode,
+            wireframe="overlay" if workspace.display.wireframe else None,
             outputs=CLICK_OUTPUTS,
         )
 
     def _renderer_for(self, size: tuple[int, int]) -> Renderer:
-        wanted = size, self._workspace.worn_look
+        wanted = size, self._workspace.display.worn_look
         if self._renderer is None or self._made_for != wanted:
             self.close()
-            self._renderer = Renderer(*size, look=self._workspace.worn_look)
+            self._renderer = Renderer(*size, look=self._workspace.display.worn_look)
             self._made_for = wanted
         return self._renderer
 

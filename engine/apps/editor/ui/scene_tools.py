@@ -37,7 +37,7 @@ def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
     _draw_steps(workspace)
     _draw_time(workspace)
     _draw_looks(workspace)
-    imgui.begin_disabled(workspace.as_rendered)
+    imgui.begin_disabled(workspace.display.as_rendered)
     _draw_modes(workspace)
     imgui.end_disabled()
     _beside("Parallel", boxes=1)
@@ -49,14 +49,14 @@ def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
 def _draw_looks(workspace: Workspace) -> None:
     """Lay out the choice of the look, and of pictures as they are rendered."""
     _beside("As rendered", boxes=1)
-    _, workspace.as_rendered = imgui.checkbox("As rendered", workspace.as_rendered)
+    _, workspace.display.as_rendered = imgui.checkbox("As rendered", workspace.display.as_rendered)
     imgui.set_item_tooltip("what engine3d.render draws, without marks")
     width = imgui.get_font_size() * 7
     _beside("", width)
     imgui.set_next_item_width(width)
     names = [look or "auto" for look in LOOKS]
-    _, chosen = imgui.combo("##look", LOOKS.index(workspace.look), names)
-    workspace.look = LOOKS[chosen]
+    _, chosen = imgui.combo("##look", LOOKS.index(workspace.display.look), names)
+    workspace.display.look = LOOKS[chosen]
     imgui.set_item_tooltip("look of scenes without light; auto: plain, and studio as rendered")
 
 
@@ -65,10 +65,10 @@ def _draw_modes(workspace: Workspace) -> None:
     width = imgui.get_font_size() * 7
     _beside("", width)
     imgui.set_next_item_width(width)
-    _, chosen = imgui.combo("##mode", MODES.index(workspace.mode), list(MODES))
-    workspace.mode = MODES[chosen]
+    _, chosen = imgui.combo("##mode", MODES.index(workspace.display.mode), list(MODES))
+    workspace.display.mode = MODES[chosen]
     _beside("Wireframe", boxes=1)
-    _, workspace.wireframe = imgui.checkbox("Wireframe", workspace.wireframe)
+    _, workspace.display.wireframe = imgui.checkbox("Wireframe", workspace.display.wireframe)
 
 
 def _beside(label: str, width: float = 0.0, *, boxes: int = 0) -> None:

@@ -85,6 +85,32 @@ class Panels:
     pictures_to_focus: int = 0
 
 
+@dataclass
+class Display:
+    """How the scene is drawn.
+
+    Attributes
+    ----------
+    mode : Mode
+    wireframe : bool
+    look : {"studio", "plain"} or None
+        The look of a scene without light of its own. None is ``"studio"`` as rendered; else it is
+        ``"plain"``, which costs nothing when a node is dragged.
+    as_rendered : bool
+        Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
+    """
+
+    mode: Mode = "lit"
+    wireframe: bool = False
+    look: LookName | None = None
+    as_rendered: bool = False
+
+    @property
+    def worn_look(self) -> LookName:
+        """The look that the view has."""
+        return self.look or ("studio" if self.as_rendered else "plain")
+
+
 class Workspace:
     """An edited document with its display state.
 
@@ -94,13 +120,7 @@ class Workspace:
     hierarchy : Hierarchy
     view : Viewpoint
     orbit : OrbitController
-    mode : Mode
-    wireframe : bool
-    look : {"studio", "plain"} or None
-        The look of a scene without light of its own. None is ``"studio"`` as rendered; else it is
-        ``"plain"``, which costs nothing when a node is dragged.
-    as_rendered : bool
-        Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
+    display : Display
     tools : Tools
     panels : Panels
     plays : bool
@@ -122,10 +142,7 @@ class Workspace:
     """
 
     def __init__(self) -> None:
-        self.mode: Mode = "lit"
-        self.wireframe = False
-        self.look: LookName | None = None
-        self.as_rendered = False
+        self.display = Display()
         self.tools = Tools()
         self.panels = Panels()
         self.plays = False
@@ -309,11 +326,6 @@ class Workspace:
         """Return a key shared by all commands of one mouse drag."""
         self._drags += 1
         return self._drags
-
-    @property
-    def worn_look(self) -> LookName:
-        """The look that the view has."""
-        return self.look or ("studio" if self.as_rendered else "plain")
 
     def camera(self) -> tuple[Camera, np.ndarray]:
         """Return the camera of the view and its pose, for `engine3d.render`."""

@@ -117,7 +117,7 @@ class View(RemoteFrameBuffer):
         width, height = check_size(size)
         check_motion(update, "update")
         taken = take_marks(dict(marks))
-        settings = settings_for(thing, look, marks=taken)
+        settings = settings_for(look, marks=taken)
         viewed = viewed_thing(thing, title=None, up=up, update=update, period=period, marks=taken)
         if viewed is None:
             raise InvalidArgumentError(
@@ -127,7 +127,7 @@ class View(RemoteFrameBuffer):
             raise InvalidArgumentError(f"quality must be a whole number in 1..100, not {quality!r}")
         super().__init__(css_width=f"{width}px", css_height=f"{height}px", quality=quality)
         self._page = _Page((width, height))
-        self._view_renderer = ViewRenderer(viewed, settings, (width, height))
+        self._view_renderer = ViewRenderer(viewed, settings, (width, height), antialiasing="msaa")
         self._viewer = Viewer(
             self._view_renderer,
             self._page,

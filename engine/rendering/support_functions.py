@@ -90,6 +90,7 @@ class _Placed:
     def support(self, directions: np.ndarray) -> np.ndarray:
         """Return the support, searching vertices only where the boxes extend farthest."""
         poses, boxes = np.concatenate(self._poses), np.concatenate(self._boxes)
+        self._poses, self._boxes = [poses], [boxes]  # so that the next call joins nothing
         local, offset = _in_their_own_space(poses, directions)
         center, half = (boxes[:, 0] + boxes[:, 1]) * 0.5, (boxes[:, 1] - boxes[:, 0]) * 0.5
         bound = linalg.dot(local, center[:, np.newaxis])

@@ -22,7 +22,7 @@ from ..model.scene.gradients import Gradient
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
 from ..model.scene.surroundings import Background
-from ..rendering.options import RenderOptions
+from ..rendering.options import WHITE, RenderOptions
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)
@@ -40,6 +40,8 @@ DEFAULTS = {one.name: one.default for one in fields(RenderOptions) if one.name !
     "line_color": None,
     "point_size": None,
 }
+#: The options of what is drawn as it is, where they have other defaults here.
+BARE = {"point_size": 1.0, "line_color": WHITE}
 Value = TypeVar("Value")
 #: The choices of options with few choices, in the order in which keys cycle.
 CHOICES = {

@@ -1,23 +1,20 @@
-"""Texture filtering as chosen on the command line or in the viewer."""
+"""How pictures read textures: as the user chose, as the texture says, or as looks do."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from ..model.materials.material import Material, textures_of
 from ..model.materials.textures import Texture
-from ..model.scene.scene import Scene
-from .visibility import DRAWABLE, mesh_of
 
-#: The default for models whose files do not specify it; docs/performance.md explains the choice.
+#: How looks read textures that do not specify it; docs/performance.md explains the choice.
 USUAL_ANISOTROPY = 8
 USUAL_LOD_BIAS = -0.25
+_SAYS_NOTHING = (1, 0.0)  # the anisotropy and bias of a new texture
 
 
 @dataclass(frozen=True)
 class Filtering:
-    """Filtering settings for all textures of a scene.
+    """Filtering settings for all textures of a picture; the textures themselves stay unchanged.
 
     Attributes
     ----------
@@ -33,24 +30,16 @@ class Filtering:
     lod_bias: float | None = None
     is_usual: bool = False
 
-    def put(self, scene: Scene) -> None:
-        """Apply the settings to a scene's textures."""
-        things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
-        materials = {id(m): m for thing in things for m in mesh_of(thing).materials}
-        for texture in _textures(materials.values()):
-            anisotropy, bias = self.anisotropy, self.lod_bias
-            if self.is_usual and (texture.anisotropy, texture.lod_bias) == (1, 0.0):
-                anisotropy = USUAL_ANISOTROPY if anisotropy is None else anisotropy
-                bias = USUAL_LOD_BIAS if bias is None else bias
-            if anisotropy is not None:
-                texture.anisotropy = anisotropy
-            if bias is not None:
-                texture.lod_bias = bias
+    def without_usual(self) -> Filtering:
+        """Return the settings that read textures as they say where None is chosen."""
+        return replace(self, is_usual=False)
 
-
-def _textures(materials: Iterable[Material]) -> list[Texture]:
-    """Return the textures of materials, each once."""
-    found: dict[int, Texture] = {}
-    for material in materials:
-        found.update((id(texture), texture) for texture in textures_of(material).values())
-    return list(found.values())
+    def __call__(self, texture: Texture) -> tuple[int, float]:
+        """Return the anisotropy and the bias with which a texture is read."""
+        anisotropy, bias = texture.anisotropy, texture.lod_bias
+        if self.is_usual and (anisotropy, bias) == _SAYS_NOTHING:
+            anisotropy, bias = USUAL_ANISOTROPY, USUAL_LOD_BIAS
+        return (
+            anisotropy if self.anisotropy is None else self.anisotropy,
+            bias if self.lod_bias is None else self.lod_bias,
+        )

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..base import linalg
+from ..base.dirty_tracking import Watch
 from ..choices import FrameCull
 from ..model.geometry.mesh import Mesh
 from ..model.materials.material import textures_of
@@ -69,6 +70,7 @@ class GroundShadow:
         self._axes = axes
         self._renderers: dict[bool, Renderer] = {}
         self._kept: dict[float, tuple[tuple[object, ...], np.ndarray]] = {}
+        self._shapes = _Shapes(ground)
 
     def alphas(self, lowest: float, sphere: Sphere, azimuth: float, cull: FrameCull) -> np.ndarray:
         """Return the darkness of the ground; rows go from back to front.
@@ -115,19 +117,8 @@ class GroundShadow:
         data = self._scene.data
         data.update()
         posing = None if data.posing is None else data.posing.moment
-        versions: dict[object, int] = {}
-        for shape in data.objects.objects:
-            if shape is None or shape is self._ground:
-                continue
-            if isinstance(shape, InstancedMesh):
-                versions[shape] = shape.version
-            mesh = getattr(shape, "mesh", shape)
-            versions[mesh] = mesh.version
-            for material in mesh.materials:
-                versions[material] = material.version
-                if material.alpha_mode != "opaque":  # its textures have holes
-                    versions.update((t, t.version) for t in textures_of(material).values())
-        return versions, data.shows_textures, posing, placed_casters(data.arrays)
+        shapes = self._shapes.changes(data.objects)
+        return shapes, data.shows_textures, posing, placed_casters(data.arrays)
 
     def _heights(
         self, slant: tuple[float, float], lowest: float, sphere: Sphere, cull: FrameCull
@@ -165,6 +156,56 @@ class GroundShadow:
             self._scene, (camera, pose), outputs=("ndc_depth",), cull=cull
         )
         return (frame.ndc_depth + np.float32(1.0)) * np.float32(0.5)
+
+
+class _Shapes:
+    """The shapes of a scene's objects, which are visited only if one may have changed.
+
+    Parameters
+    ----------
+    ground : Mesh
+        It does not count.
+    """
+
+    def __init__(self, ground: Mesh) -> None:
+        self._ground = ground
+        self._version: object = None
+        self._versions: dict[Any, int] = {}
+        self._watch = Watch()
+        self._changes = 0
+
+    def changes(self, objects: Any) -> int:
+        """Return a number that grows whenever what may cast shadows changes; places do not count.
+
+        Parameters
+        ----------
+        objects
+            Those of a `StagedScene`.
+        """
+        if objects.version != self._version or self._watch.found():
+            self._version = objects.version
+            things = self._things(objects.objects)
+            self._watch = Watch(things)
+            versions = {thing: thing.version for thing in things}
+            self._changes += versions != self._versions
+            self._versions = versions
+        return self._changes
+
+    def _things(self, shapes: Sequence[Any]) -> dict[Any, None]:
+        """Return the meshes, instances and materials, and the textures that have holes."""
+        things: dict[Any, None] = {}
+        for shape in shapes:
+            if shape is None or shape is self._ground:
+                continue
+            if isinstance(shape, InstancedMesh):
+                things[shape] = None
+            mesh = getattr(shape, "mesh", shape)
+            things[mesh] = None
+            for material in mesh.materials:
+                things[material] = None
+                if material.alpha_mode != "opaque":
+                    things.update(dict.fromkeys(textures_of(material).values()))
+        return things
 
 
 def _camera(lean: tuple[float, float], reached: float, radius: float) -> Camera:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,8 +21,7 @@ from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
-from ..model.scene.surroundings import SCENE_VALUES
-from ..model.scene.usage import uses_in
+from ..model.scene.scene_changes import SceneChanges
 from ..rendering.renderer import Renderer
 from .coloring import show_numbers
 from .look import Look
@@ -43,15 +42,15 @@ class Stage(NamedTuple):
     ----------
     thing : object
         It is held, so that no other thing gets its identity.
-    state : tuple or None
-        Of the thing when it was staged; None if changes cannot be noticed.
+    has_changed : callable
+        Returns whether the thing has changed since, or whether changes cannot be noticed.
     view_renderer : ViewRenderer
     first : Viewpoint
         Its first view, as of ``engine3d render``.
     """
 
     thing: Any
-    state: tuple[Any, ...] | None
+    has_changed: Callable[[], bool]
     view_renderer: ViewRenderer
     first: Viewpoint
 
@@ -94,7 +93,7 @@ class KeptStages:
         identity = thing if isinstance(thing, (str, bytes)) else id(thing)
         key = identity, tuple(sorted(options.items()))
         known = self._kept.get(key)
-        if known is None or known.state is None or known.state != _state_of(thing, known.state):
+        if known is None or known.has_changed():
             known = self._kept[key] = self._staged(thing, options, NO_MARKS)
         self._kept.move_to_end(key)
         while len(self._kept) > KEPT:
@@ -104,6 +103,7 @@ class KeptStages:
     @np.errstate(all="ignore")
     def _staged(self, thing: Any, options: Mapping[str, Any], marks: Marks) -> Stage:
         files: dict[str, FileState] = {}
+        has_changed = _noticing(thing, files)  # from before the thing is read
         if isinstance(thing, str):
             files[thing] = FileState(thing)
         with found_files(lambda path: files.setdefault(path, FileState(path))):
@@ -114,7 +114,7 @@ class KeptStages:
                 f"not {type(thing).__name__}"
             )
         show_numbers(viewed, marks)
-        settings = settings_for(thing, self._look, options, self._material, marks)
+        settings = settings_for(self._look, options, self._material, marks)
         size = self._renderer.width, self._renderer.height
         view_renderer = ViewRenderer(
             viewed,
@@ -125,27 +125,30 @@ class KeptStages:
             **self._drawing,
         )
         first = FirstView().place(view_renderer, turns=False)
-        return Stage(thing, _state_of(thing, (files,)), view_renderer, first)
+        return Stage(thing, has_changed, view_renderer, first)
 
 
-def _state_of(thing: Any, known: tuple[Any, ...]) -> tuple[Any, ...] | None:
-    """Return the state of a thing, which differs after a change; None where none would show.
+def _noticing(thing: Any, files: Mapping[str, FileState]) -> Callable[[], bool]:
+    """Return a function that tells whether a thing has changed since; True if none would show.
 
     Parameters
     ----------
     thing : object
-    known : tuple
-        The state before; of a path, the states of its files.
+    files : mapping
+        The states of the files that a path leads to, found while it is opened.
     """
     if isinstance(thing, str):
-        return known if not any(file.changed() for file in known[0].values()) else ()
-    if isinstance(thing, Mesh):
-        return versions_of(thing)
+        return lambda: any(file.changed() for file in files.values())
+    if isinstance(thing, Scene):
+        changes = SceneChanges(thing)
+        return lambda: changes.any
+    if not isinstance(thing, (Mesh, InstancedMesh)):
+        return lambda: True
+    before = _versions(thing)
+    return lambda: _versions(thing) != before
+
+
+def _versions(thing: Mesh | InstancedMesh) -> tuple[Any, ...]:
     if isinstance(thing, InstancedMesh):
         return (thing.version, *versions_of(thing.mesh))
-    if isinstance(thing, Scene):
-        thing.data.update()
-        values = tuple(getattr(thing, name) for name in SCENE_VALUES)
-        used = tuple((id(one), one.version) for one in uses_in([thing]))
-        return thing.data.census(), thing.data.arrays.changes, values, used
-    return None
+    return versions_of(thing)

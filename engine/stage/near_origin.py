@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..io.reading.far_coordinates import origin_near
 from .viewed_scene import ViewedScene
 
@@ -37,3 +40,17 @@ def from_file(viewed: ViewedScene, position: Sequence[float]) -> tuple[float, ..
     """Return the scene position of a point in the file's coordinates."""
     pairs = zip(position, viewed.origin, strict=True)
     return tuple(float(place) - origin for place, origin in pairs)
+
+
+def pose_from_file(viewed: ViewedScene, pose: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the pose in the scene of one in the file's coordinates."""
+    moved = pose.copy()
+    moved[:3, 3] -= viewed.origin
+    return moved
+
+
+def pose_in_file(viewed: ViewedScene, pose: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the pose in the file's coordinates of one in the scene."""
+    moved = pose.copy()
+    moved[:3, 3] += viewed.origin
+    return moved

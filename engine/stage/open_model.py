@@ -22,8 +22,10 @@ from ..model.geometry.twins import take_over
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
+from .appearance import BARE
 from .coloring import Coloring
 from .overlays.numbers import Numbers
+from .scenes_of_things import is_lit
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
@@ -146,14 +148,17 @@ def view_document(
 ) -> ViewedScene:
     """Return a document as a scene for viewing; see `open_model`."""
     scene = scene_from_document(document, variant)
+    # glTF defines the visible sides per material; other files do not, or are often wrong.
+    appearance: dict[str, Any] = {"cull": "back" if document.tree is not None else "auto"}
+    is_bare = document.scene is not None and is_lit(scene)
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up=document.up,
         update=None if scene.animator is None else scene.animator.seek,
-        themed=document.scene is None,
-        # glTF defines the visible sides per material; other files do not, or are often wrong.
-        appearance={"cull": "back" if document.tree is not None else "auto"},
+        themed=not is_bare,
+        is_scene=document.scene is not None,
+        appearance=appearance | (BARE if is_bare else {}),
         path=path,
         format=document.format,
         details=document_lines(document),

@@ -30,23 +30,24 @@ from ..rendering.options import (
     shows_options,
 )
 from ..rendering.turn import RendererTurn
-from .appearance import DARK
+from .appearance import BARE, DARK
 from .kept_stages import KeptStages, Stage
 from .look import Look, LookChoice, check_look
+from .near_origin import pose_from_file
 from .overlays.numbers import MarkKeywords, take_marks
 from .painting import check_material
 from .scenes_of_things import is_lit
-from .viewed_thing import is_file
+from .viewed_thing import comes_from_file, is_file
 from .views.camera_view import AnyView, CameraView
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+    from ..model.scene.cameras import Camera
     from ..rendering.camera_choice import CameraChoice
+    from .viewed_scene import ViewedScene
 
 _PLAIN = Look.plain()
-#: The options of a bare thing, where a stage has others than `RenderOptions`.
-_BARE = {name: getattr(DEFAULTS, name) for name in ("point_size", "line_color")}
 
 
 class DrawingKeywords(OptionKeywords, MarkKeywords, total=False):
@@ -182,7 +183,7 @@ class Renderer(rendering.Renderer):
             super().prepare(scene, options=options, **keywords)
             return
         chosen, given = _chosen(options, keywords)
-        stage = self._stages.stage_of(scene, (_BARE if self._is_bare(scene) else {}) | given)
+        stage = self._stages.stage_of(scene, (BARE if self._is_bare(scene) else {}) | given)
         super().prepare(stage.view_renderer.staging.scene, options=chosen)
 
     @shows_options
@@ -205,7 +206,8 @@ class Renderer(rendering.Renderer):
             its subtree is drawn, at its world pose.
         camera : None, Node or (Camera, pose)
             A node of this scene. None uses its first visible camera; without one, all of the thing
-            shows. The cameras of files count only if they are loaded as scenes.
+            shows. The cameras of files count only if they are loaded as scenes. The pose for a file
+            is in its coordinates.
         out : Frame, optional
             An earlier frame of the same size to draw into; its outputs are redrawn, and it is
             returned.
@@ -268,10 +270,10 @@ class Renderer(rendering.Renderer):
         with self._stage_turn.taken(), np.errstate(all="ignore"):
             chosen, given = _chosen(options, named)
             is_bare = self._is_bare(scene) and not marks.shows_any
-            stage = self._stages.stage_of(scene, (_BARE if is_bare else {}) | given, marks)
+            stage = self._stages.stage_of(scene, (BARE if is_bare else {}) | given, marks)
             viewed = stage.view_renderer.viewed
             if culling_camera is not None:
-                culling_camera = find_camera(viewed.scene, culling_camera)
+                culling_camera = _find_camera(viewed, scene, culling_camera)
             view = self._view(stage, scene, camera, is_bare)
             return stage.view_renderer.draw(
                 view, outputs=chosen.outputs, out=out, culling_camera=culling_camera
@@ -296,19 +298,31 @@ class Renderer(rendering.Renderer):
 
     def _is_bare(self, thing: Any) -> bool:
         """Return whether a thing is drawn as a scene would be that holds it."""
-        return self._worn == _PLAIN and not is_file(thing)
+        return self._worn == _PLAIN and not comes_from_file(thing)
 
     def _view(self, stage: Stage, thing: Any, camera: CameraChoice, is_bare: bool) -> AnyView:
         """Return the view of a stage: that of a camera, else the thing's first one."""
         view_renderer = stage.view_renderer
-        scene = view_renderer.viewed.scene
-        found = None if camera is None and is_file(thing) else find_camera(scene, camera)
+        viewed = view_renderer.viewed
+        found = _find_camera(viewed, thing, camera)
         if found is None and is_bare:
-            found = frame_scene(scene, aspect=self.width / self.height)
+            found = frame_scene(viewed.scene, aspect=self.width / self.height)
         if found is None:
             return stage.first
         view_renderer.choose_theme(stage.first)
         return CameraView(*found, stage.first.up, (self.width, self.height))
+
+
+def _find_camera(
+    viewed: ViewedScene, thing: Any, camera: CameraChoice
+) -> tuple[Camera, np.ndarray] | None:
+    """Return the camera that is chosen for a thing, and its pose in the scene; perhaps none."""
+    if camera is None and comes_from_file(thing):
+        return None
+    found = find_camera(viewed.scene, camera)
+    if found is None or not is_file(thing):
+        return found
+    return found[0], pose_from_file(viewed, found[1])
 
 
 def _chosen(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -19,8 +19,9 @@ from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
 from .appearance import Appearance
 from .chosen_surroundings import fog_color
+from .filtering import Filtering
 from .lighting import NO_LIGHTS, OWN_LIGHTS, Lighting, OnlyLight, placed_light
-from .look import THEMED
+from .look import THEMED, Look
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid
 from .overlays.grid_lines import grid
@@ -33,6 +34,8 @@ from .views.camera_view import AnyView
 from .views.viewpoint import UP_DIRECTIONS, Sphere
 from .visibility import Visibility
 
+_PLAIN = Look.plain()
+_BLACK = (0, 0, 0)  # the background of new scenes
 #: A box around a sphere extends no farther than this, in radii.
 _BOX_REACH = 1.75
 
@@ -68,14 +71,14 @@ class Staging:
     ) -> None:
         self.viewed = viewed
         self.settings = settings
-        sees_through = viewed.themed and settings.look.background is None
+        sees_through = viewed.themed and self._backdrop is None
         self._transparent = transparent or (sees_through and settings.background is None)
         self.scene = scene = StagedScene(viewed.scene)
         coloring = viewed.coloring
         shown_as = None if coloring is None else coloring.colored_thing
         self.visibility = Visibility(scene, shown_as, settings.material)
         self.alone: np.ndarray | None = None
-        settings.filtering.put(viewed.scene)
+        scene.read_textures(self._reading())
         self.show_textures(settings.textures)
         if settings.light_clamp is not None:
             scene.light_clamp = settings.light_clamp
@@ -83,7 +86,8 @@ class Staging:
             scene.exposure = settings.exposure
         self._take_theme()
         self._lay_background()
-        settings.surroundings.put(scene, settings.look.environment)
+        reflects = settings.look.environment and not self._is_lit_scene
+        settings.surroundings.put(scene, reflects)
         self._lay_fog()
         self.stand(up, lights)
 
@@ -94,9 +98,29 @@ class Staging:
         if isinstance(background, str) and background in named and not self.settings.keeps_theme:
             self.theme = named[background]
 
+    def _reading(self) -> Filtering:
+        """Return how textures are read: as looks do, if the model wears one that adds something."""
+        settings = self.settings
+        is_bare = settings.look == _PLAIN or self._is_lit_scene
+        return settings.filtering.without_usual() if is_bare else settings.filtering
+
+    @property
+    def _is_lit_scene(self) -> bool:
+        """Whether it is a program's scene with light of its own, which wears no look."""
+        return self.viewed.is_scene and not self.viewed.themed
+
+    @property
+    def _backdrop(self) -> Any:
+        """The background of the look, or the one that a program chose for its scene."""
+        backdrop, own = self.settings.look.background, self.viewed.scene.background
+        if backdrop != "auto" or not self.viewed.is_scene:
+            return backdrop
+        is_new = own is not None and own == _BLACK
+        return backdrop if is_new else None if own is None else "scene"
+
     def _lay_background(self) -> None:
         """Give the scene the background of the user or of the look."""
-        settings, background = self.settings, self.settings.look.background
+        settings, background = self.settings, self._backdrop
         if self._transparent:
             self.scene.background = None
         elif settings.background is not None:
@@ -109,7 +133,7 @@ class Staging:
     @property
     def _theme_background(self) -> Background:
         """The background of a model in the colours of the theme."""
-        is_studio = self.settings.look.background in THEMED
+        is_studio = self._backdrop in THEMED
         return self.theme.gradient if is_studio else self.theme.background
 
     def stand(self, up: str, lights: str = "") -> None:
@@ -132,7 +156,7 @@ class Staging:
         if lights in self.lighting.names:
             self.lighting.choose(lights)
         self._studio = self._make_studio()
-        self._chooses_theme = self.settings.look.background == "auto" and self._shows_theme()
+        self._chooses_theme = self._backdrop == "auto" and self._shows_theme()
         self.show_grid(self.settings.grid)
 
     def _light(self) -> Lighting | OnlyLight:
@@ -146,7 +170,8 @@ class Staging:
             strength = intensity * WHITE_INTENSITY
             light = DirectionalLight(settings.light_direction, intensity=strength)
             return OnlyLight(self.scene, light)
-        first = look.lights or (NO_LIGHTS if self._adds_nothing() else "headlight")
+        lights = None if self._is_lit_scene else look.lights
+        first = lights or (NO_LIGHTS if self._adds_nothing() else "headlight")
         return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity * look.light_intensity, first)
 
     def _adds_nothing(self) -> bool:
@@ -161,7 +186,7 @@ class Staging:
         if not self.viewed.themed or (look.lights is None and not look.ground):
             return None
         lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
-        is_lit = lights and look.lights is not None and self.scene.environment is None
+        is_lit = lights and look.lights is not None
         return Studio(self.scene, UP_DIRECTIONS[self.up], is_lit, self.viewed.focus)
 
     def _shows_theme(self) -> bool:

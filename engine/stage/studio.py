@@ -51,7 +51,8 @@ class Studio:
     up : (3,) sequence of float
         The world's up direction.
     is_lit : bool
-        Whether ambient light replaces that of the scene.
+        Whether ambient light replaces that of the scene: soft light from above and below, or its
+        environment.
     places : (N, 3) ndarray of float64, optional
         Points that bound the moving scene, in world space; by default it is static.
     """
@@ -62,10 +63,11 @@ class Studio:
         self._staged = staged
         self._axes = home_axes(up)
         if is_lit:
+            staged.ambient = (0.0, 0.0, 0.0)
+        if is_lit and staged.environment is None:
             pose = np.eye(4)
             pose[:3, :3] = np.stack(tuple(self._axes), axis=1)
             staged.beside.add(HemisphereLight(_SKY, _GROUND), pose=pose)
-            staged.ambient = (0.0, 0.0, 0.0)
         self._ground: Node | None = None
         self._square = _square()
         self._shadow = GroundShadow(staged, self._square, self._axes)

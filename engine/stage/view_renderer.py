@@ -23,7 +23,6 @@ from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
 from .appearance import Appearance, count_points, point_size
 from .blank import BlankWatch, Reason, Sight
-from .culling_study import CullingStudy
 from .lighting import Lighting, OnlyLight
 from .output_pictures import (
     COVERAGE,
@@ -33,6 +32,7 @@ from .output_pictures import (
     split,
     whole_pixel,
 )
+from .overlays.culling_study import CullingStudy
 from .overlays.debug_lines import draw_lines
 from .overlays.labels import draw_labels
 from .overlays.selection_outline import CLICK_OUTPUTS

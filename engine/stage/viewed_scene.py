@@ -77,7 +77,11 @@ class ViewedScene:
         Called with the camera's position, (3,) float64 in world space; returns the radius of the
         free space around it, which the near plane may use.
     themed : bool
-        Whether the background follows the viewer's theme.
+        Whether it wears a look, whose background may follow the viewer's theme.
+    is_scene : bool
+        Whether it is a program's scene, perhaps from a scene file. A look leaves its background
+        alone, unless that is the one of new scenes. With light of its own, it gets no other light,
+        and its textures are read as they say.
     path : str or None
         The file it came from.
     format : str or None
@@ -113,6 +117,7 @@ class ViewedScene:
     nearest: float = math.inf
     clearance: Callable[[np.ndarray], float] | None = None
     themed: bool = False
+    is_scene: bool = False
     path: str | None = None
     format: str | None = None
     details: list[str] = field(default_factory=list)

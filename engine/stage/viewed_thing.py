@@ -10,9 +10,10 @@ from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
+from .appearance import BARE
 from .coloring import show_numbers
 from .filtering import Filtering
-from .look import Look, LookChoice, check_look
+from .look import LookChoice, check_look
 from .open_models import open_models
 from .overlays.numbers import NO_MARKS, Marks
 from .played_clips import play_clips
@@ -21,7 +22,10 @@ from .stage_settings import Settings
 from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS
 
-_BLACK = (0, 0, 0)  # the background of new scenes
+
+def comes_from_file(thing: Any) -> bool:
+    """Return whether a thing is a path, a file object, or a viewed scene made of one."""
+    return is_file(thing) or (isinstance(thing, ViewedScene) and thing.format is not None)
 
 
 def viewed_of(thing: Any) -> ViewedScene | None:
@@ -30,15 +34,19 @@ def viewed_of(thing: Any) -> ViewedScene | None:
     Parameters
     ----------
     thing : path-like, binary file object, or what `scene_of` takes
-        A file is opened as by ``engine3d render``.
+        A file is opened as by ``engine3d render``. A viewed scene is returned as it is.
     """
+    if isinstance(thing, ViewedScene):
+        return thing
     if is_file(thing):
         return open_models([thing])
     scene = scene_of(thing)
     if scene is None:
         return None
     title = getattr(thing, "name", "") or type(thing).__name__.lower()
-    return ViewedScene(scene, title, themed=not is_lit(scene))
+    is_scene, is_dressed = isinstance(thing, Scene), not is_lit(scene)
+    appearance = dict(BARE) if is_scene and not is_dressed else {}
+    return ViewedScene(scene, title, themed=is_dressed, is_scene=is_scene, appearance=appearance)
 
 
 def viewed_thing(
@@ -70,18 +78,15 @@ def viewed_thing(
 
 
 def settings_for(
-    thing: Any,
     look: LookChoice,
     options: Mapping[str, Any] | None = None,
     material: Material | None = None,
     marks: Marks = NO_MARKS,
 ) -> Settings:
-    """Return the settings with which a thing wears a look, as in ``engine3d render``.
+    """Return the settings with which things wear a look, as in ``engine3d render``.
 
     Parameters
     ----------
-    thing : object
-        What `viewed_of` takes. A scene keeps the background that a program gave it.
     look : str or Look
     options : mapping, optional
         Drawing options that override those of the look.
@@ -94,26 +99,14 @@ def settings_for(
     ------
     InvalidArgumentError
     """
-    # The textures of a program's own meshes must not change.
-    filtering = Filtering(is_usual=is_file(thing))
-    worn = _fitting_look(check_look(look), thing)
     return Settings(
         dict(options or {}),
-        look=worn,
+        look=check_look(look),
         material=material,
-        filtering=filtering,
+        filtering=Filtering(is_usual=True),
         bar=marks.bar,
         axes_grid=marks.axes_grid,
     )
-
-
-def _fitting_look(look: Look, thing: Any) -> Look:
-    """Return a look without a background of its own, if the thing is a scene that has one."""
-    if not isinstance(thing, Scene) or look.background != "auto":
-        return look
-    if thing.background is None or thing.background != _BLACK:
-        return look.replace(background=None if thing.background is None else "scene")
-    return look
 
 
 def is_file(thing: Any) -> bool:

@@ -2,9 +2,11 @@
 
 import json
 
+import numpy as np
 import pytest
 from cli.conftest import pixels
 
+import engine3d as e3d
 from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
@@ -38,6 +40,31 @@ def test_several_models_stand_one_below_another(model, tmp_path):
     assert main(["sheet", *arguments, *SMALL]) == 0
     assert pixels(tmp_path / "out.png").shape == (560, 360, 4)
     assert not (tmp_path / "out.json").exists()
+
+
+def test_looks_colours_and_numbers_are_those_of_python(tmp_path):
+    ball = e3d.uv_sphere(0.5, (12, 6))
+    ball.save("ball.ply")
+    rows = {
+        ("--look", "plain"): {"look": "plain"},
+        ("--color", "red"): {"material": e3d.Material(color="red")},
+        ("--coloring-array", "y", "--range", "-1,1", "-b"): {
+            "color_by": "y",
+            "clim": (-1, 1),
+            "bar": True,
+        },
+        ("-s", "--axes-grid"): {"colormap": "viridis", "axes_grid": True},
+        ("--colormap", "gray", "-y", "0", "--coloring-array", "normals"): {
+            "color_by": "normals",
+            "colormap": "gray",
+            "component": 0,
+        },
+    }
+    for options, keywords in rows.items():
+        arguments = ["ball.ply", "-o", "out.png", "--views", "front,iso", *options]
+        assert main(["sheet", *arguments, *SMALL]) == 0
+        sheet = e3d.sheets.contact_sheet("ball.ply", views="front,iso", size=(360, 280), **keywords)
+        assert np.array_equal(pixels(tmp_path / "out.png"), np.asarray(sheet))
 
 
 def test_a_report_without_a_picture(model, tmp_path, capfd):

@@ -34,18 +34,63 @@ def texture(**sampling):
     ],
 )
 def test_who_says_something_keeps_it(filtering, plain, own):
-    textures = texture(), texture(anisotropy=4)
-    filtering.put(scene_of(*textures))
-    assert [(one.anisotropy, one.lod_bias) for one in textures] == [plain, own]
+    assert [filtering(texture()), filtering(texture(anisotropy=4))] == [plain, own]
 
 
-def test_a_view_gives_them_to_each_scene_that_it_shows():
-    first, second = texture(), texture()
-    settings = Settings({}, filtering=Filtering(is_usual=True))
-    view = ViewRenderer(ViewedScene(scene_of(first), "first"), settings, (32, 24))
-    assert (first.anisotropy, second.anisotropy) == (USUAL_ANISOTROPY, 1)
-    view.show(ViewedScene(scene_of(second), "second"))
-    assert second.anisotropy == USUAL_ANISOTROPY
+def floor(**sampling):
+    """Return a floor of fine lines that recedes."""
+    lines = np.full((64, 64, 3), 255, np.uint8)
+    lines[:, ::4] = 0
+    mesh = e3d.plane((40.0, 40.0))
+    mesh.uvs = mesh.uvs * 10
+    mesh.materials = [e3d.Material(texture=e3d.Texture(lines, **sampling))]
+    return mesh
+
+
+CAMERA = e3d.PerspectiveCamera(0.7), e3d.look_at((0, 1.5, 12), (0, 0, 0))
+
+
+def seen(thing, **options):
+    return e3d.render(thing, CAMERA, size=(96, 54), **options).color.tobytes()
+
+
+def test_looks_read_textures_that_say_nothing_and_leave_them_alone():
+    said = {"anisotropy": USUAL_ANISOTROPY, "lod_bias": USUAL_LOD_BIAS}
+    mesh = floor()
+    image = mesh.materials[0].texture
+    before = image.version
+    usual = seen(mesh)
+    assert usual == seen(floor(**said)) != seen(floor(anisotropy=2))
+    assert (image.anisotropy, image.lod_bias, image.version) == (1, 0.0, before)
+    assert seen(mesh, look="plain") == seen(floor(anisotropy=1), look="plain") != usual
+    assert seen(mesh, look="plain") != seen(floor(**said), look="plain")
+    image.anisotropy = 2
+    assert seen(mesh) == seen(floor(anisotropy=2)) != usual
+
+
+def test_scenes_with_light_of_their_own_read_textures_as_they_say(tmp_path):
+    scene = e3d.Scene(background=(9, 9, 9))
+    scene.add(floor())
+    dressed = [seen(thing) for thing in (scene, saved(scene, tmp_path))]
+    scene.add(e3d.DirectionalLight((0, -1, 0)))
+    lit = [seen(thing) for thing in (scene, saved(scene, tmp_path))]
+    assert dressed[0] == dressed[1] and lit[0] == lit[1]
+    scene.nodes[0].object = floor(anisotropy=USUAL_ANISOTROPY, lod_bias=USUAL_LOD_BIAS)
+    assert seen(scene) != lit[0]
+
+
+def saved(scene, folder):
+    e3d.save_scene(scene, folder / "scene.e3d.json")
+    return folder / "scene.e3d.json"
+
+
+def test_a_view_reads_so_each_scene_that_it_shows():
+    settings = Settings({}, look="studio", filtering=Filtering(is_usual=True))
+    scenes = [scene_of(texture()) for _ in range(2)]
+    view = ViewRenderer(ViewedScene(scenes[0], "first", themed=True), settings, (32, 24))
+    for scene in scenes:
+        view.show(ViewedScene(scene, "next", themed=True))
+        assert view.staging.scene.data.reading(texture()) == (USUAL_ANISOTROPY, USUAL_LOD_BIAS)
 
 
 def test_points_of_a_usual_size_are_as_large_in_shares_of_the_picture():

@@ -1,5 +1,6 @@
 """The command, `render` and a kept `Renderer` draw the same picture of the same thing."""
 
+import io
 import subprocess
 import sys
 import warnings
@@ -11,6 +12,7 @@ import pytest
 import engine3d as e3d
 from engine3d.apps.cli import main
 from engine3d.io.scenes.upright_loading import _upright_pose
+from engine3d.stage.near_origin import pose_in_file
 
 DATA = Path(__file__).parents[2] / "data" / "models"
 SHARED = Path(__file__).parents[3] / "shared" / "models"
@@ -20,6 +22,27 @@ FILES = [
     *(SHARED / name for name in ("cow.obj", "fandisk.obj", "suzanne.obj", "teapot.obj")),
     SHARED / "spot" / "spot.obj",
     SHARED / "spot" / "spot_quadrangulated.obj",
+]
+GLTF = Path(__file__).parents[3] / "shared" / "gltf" / "models"
+FILES += [
+    SHARED / "african_head" / "african_head.obj",
+    *(
+        GLTF / name
+        for name in (
+            "Box/Box.glb",
+            "BoxVertexColors/BoxVertexColors.gltf",
+            "Suzanne/Suzanne.gltf",
+            "PmndrsSuzi/suzi.glb",
+            "AnimatedTriangle/AnimatedTriangle.gltf",
+            "Cameras/Cameras.gltf",
+            "KhrLightsExample/lights.gltf",
+            "PlayCanvasLights/Lights.glb",
+            "LumaQuantizedPoints/quantized-point-cloud.glb",
+            "Bio_01_alpha_blend/01_alpha_blend.gltf",
+            "Bio_15_transmission/15_transmission.gltf",
+            "SimpleInstancing/simple-instancing.glb",
+        )
+    ),
 ]
 MADE = ["obj", "ply", "stl", "gltf", "glb", "points.ply", "cameras.glb", "json"]
 SIZE = (160, 90)
@@ -66,6 +89,34 @@ def test_files_look_as_with_the_command(path, tmp_path):
     if not path.exists():
         pytest.skip("needs the shared models")
     same(by_command(path, tmp_path), e3d.render(path, size=SIZE).color)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_sheets_and_views_show_files_as_render_does(path):
+    if not path.exists():
+        pytest.skip("needs the shared models")
+    sheet = e3d.sheets.contact_sheet(path, views="iso", size=(360, 280))
+    frame = sheet.frame("iso")
+    size = frame.width, frame.height
+    same(frame.color, e3d.render(path, sheet.camera("iso"), size=size).color)
+    notebook = pytest.importorskip("engine3d.notebook")
+    view = notebook.View(path, size=SIZE)
+    drawn = view._view_renderer
+    seen = view._viewer.view
+    camera = drawn._camera(seen), pose_in_file(drawn.viewed, seen.pose())
+    still = e3d.loaders.load_texture(io.BytesIO(view._still())).pixels
+    view.close()
+    same(still[..., :3], e3d.render(path, camera, size=SIZE).color[..., :3])
+
+
+def test_notebooks_show_meshes_and_scenes_as_render_does(tmp_path):
+    dressed, lit = e3d.Scene(), e3d.Scene()
+    for scene in (dressed, lit):
+        scene.add(e3d.torus())
+    lit.add(e3d.DirectionalLight((-1, -2, -1)))
+    for thing in (e3d.torus(), e3d.load_mesh(DATA / "teapot.obj"), dressed, lit):
+        frame = e3d.render(thing, size=(400, 300))
+        assert thing._repr_png_() == frame._repr_png_() == frame.encode()
 
 
 @pytest.mark.parametrize("kind", MADE)

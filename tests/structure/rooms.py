@@ -51,17 +51,17 @@ ENGINE = {
 FACADES = {
     "model.environments.environment -> io.formats.radiance_pictures",
     "model.environments.environment -> io.reading.sources",
-    "model.environments.environment -> rendering.thumbnail",
+    "model.environments.environment -> stage.thumbnail",
     "model.geometry._polygons -> io.reading.triangulation",
     "model.geometry.mesh -> io.trimesh_conversion",
     "model.geometry.mesh -> io.writers",
-    "model.geometry.mesh -> rendering.thumbnail",
-    "model.materials.material -> rendering.thumbnail",
-    "model.materials.textures -> rendering.thumbnail",
+    "model.geometry.mesh -> stage.thumbnail",
+    "model.materials.material -> stage.thumbnail",
+    "model.materials.textures -> stage.thumbnail",
     "model.scene._queries -> rendering.frame",
     "model.scene._queries -> rendering.picking",
     "model.scene.scene -> io.writing.scene_saving",
-    "model.scene.scene -> rendering.thumbnail",
+    "model.scene.scene -> stage.thumbnail",
 }
 #: Of programs, those that use another.
 ARROWS = {

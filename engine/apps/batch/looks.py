@@ -46,7 +46,7 @@ def draw_look(
         warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
     with ViewRenderer(
         viewed,
-        settings_for(task.path(task.model), look),
+        settings_for(look),
         task.size,
         backend=backend,
         threads=threads,

@@ -115,7 +115,7 @@ def _draw_model(path: str, size: int) -> NDArray[np.uint8]:
     with read_source(path) as source:
         document = document_of(source, None, split=True)
     viewed = moved_near(view_document(document, path))
-    settings = settings_for(path, "studio")
+    settings = settings_for("studio")
     quality = {"samples": 4, "antialiasing": "msaa", "threads": 1}
     with ViewRenderer(viewed, settings, (size, size), **quality) as view_renderer:
         view = view_renderer.view()

@@ -9,25 +9,39 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..._native.images import encode_png
 from ...base import linalg
-from ...base.calls import checks_types
+from ...base.calls import checks_types, refuse_unknown
 from ...base.files.atomic_write import AtomicFiles, checked_path
 from ...base.linalg.vectors import as_vectors
 from ...choices import Backend
 from ...errors import InvalidArgumentError
+from ...model.materials.material import Material
+from ...model.scene.cameras import Camera
 from ...rendering.canvas import Canvas
+from ...rendering.frame import Frame
 from ...stage.look import LookChoice, check_look
-from .opening import SheetSource, open_sources
-from .page import draw_pages
+from ...stage.overlays.numbers import MarkKeywords
+from ...stage.painting import check_material
+from .opening import open_sources
+from .page import Dress, draw_pages
 from .panels import Panel
 from .report import VERSION, report_text
 from .views import DEFAULT_VIEWS, check_views
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+#: The keywords of `contact_sheet` besides those of numbers.
+_KEYWORDS = (
+    *("views", "sections", "size", "up", "unit", "root"),
+    *("look", "material", "backend", "threads"),
+)
 
 
 class Sheet:
@@ -133,6 +147,55 @@ class Sheet:
             w = np.where(w > 0.0, w, np.nan)
             return np.stack([x / w, y / w], axis=-1)
 
+    @checks_types
+    def frame(self, view: str, model: int = 0) -> Frame:
+        """Return a view as it was drawn, without texts over it.
+
+        Parameters
+        ----------
+        view : str
+            The view's name.
+        model : int
+            Which of the models.
+
+        Returns
+        -------
+        Frame
+            Of a picture it has the bytes of `render` with the camera of `camera`. It has the
+            outputs ``depth``, ``object_id`` and others beside ``color``.
+
+        Raises
+        ------
+        InvalidArgumentError
+            There is no such view or model.
+        """
+        return self._panel(view, model).frame
+
+    @checks_types
+    def camera(self, view: str, model: int = 0) -> tuple[Camera, NDArray[np.float64]]:
+        """Return the camera of a view and its pose, for `render`.
+
+        Parameters
+        ----------
+        view : str
+            The view's name.
+        model : int
+            Which of the models.
+
+        Returns
+        -------
+        camera : Camera
+        pose : (4, 4) float64
+            world-from-camera, in the file's coordinates.
+
+        Raises
+        ------
+        InvalidArgumentError
+            There is no such view or model.
+        """
+        panel = self._panel(view, model)
+        return panel.camera, panel.pose_in_file
+
     def _panel(self, view: str, model: int) -> Panel:
         if not 0 <= operator.index(model) < len(self._panels):
             raise InvalidArgumentError(f"the sheet has no model {model}")
@@ -189,7 +252,7 @@ def _is_parallel(panel: Panel) -> bool:
 
 @checks_types
 def contact_sheet(
-    models: SheetSource | Iterable[SheetSource],
+    models: Any,
     *,
     views: str | Iterable[str] = DEFAULT_VIEWS,
     sections: str | Iterable[str] = (),
@@ -198,14 +261,17 @@ def contact_sheet(
     unit: str | None = None,
     root: str | os.PathLike[str] | None = None,
     look: LookChoice = "studio",
+    material: Material | None = None,
     backend: Backend = "auto",
     threads: int = 0,
+    **marks: Unpack[MarkKeywords],
 ) -> Sheet:
     """Draw models from several sides on one sheet, with dimensions and a report.
 
     Parameters
     ----------
-    models : path, binary file object, Mesh, Scene, or several of these
+    models : what `render` takes, or several of these
+        A path or file object, a scene, a node, a mesh, instances, points or what trimesh holds.
         Each gets a part of the sheet, one below another. Scenes are not changed.
     views : str or iterable of str
         Comma-separated names: ``front``, ``right``, ``back``, ``left``, ``top``, ``bottom``,
@@ -226,9 +292,12 @@ def contact_sheet(
     root : path-like, optional
         As in `load_mesh`, for models that are files.
     look : {"studio", "plain"} or Look
-        Of the pictures; drawings stand on paper.
-    backend, threads
-        As for `Renderer`; the bytes are the same.
+        Of the pictures, which are those of `render` with the same camera; drawings stand on paper.
+    material, backend, threads
+        As for `Renderer`.
+    **marks
+        ``color_by``, ``colormap``, ``clim``, ``component``, ``on``, ``bar`` and ``axes_grid``: see
+        `render`. Bars and grids are in pictures, not in drawings.
 
     Returns
     -------
@@ -243,10 +312,12 @@ def contact_sheet(
     >>> sheet = contact_sheet("part.stl", sections="x=50%", unit="mm")
     >>> sheet.save("part.png", report="part.json")
     """
+    refuse_unknown("contact_sheet", marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
     specs = check_views(views, sections)
-    opened = open_sources(models, root=root)
+    opened = open_sources(models, root)
     drawing = {"backend": backend, "threads": threads}
-    pages = draw_pages(opened, specs, size, up, unit, drawing, check_look(look))
+    dress = Dress(drawing, check_look(look), check_material(material), dict(marks))
+    pages = draw_pages(opened, specs, size, up, unit, dress)
     report = {
         "version": VERSION,
         "size": [pages.canvas.width, pages.canvas.height],

@@ -1,31 +1,31 @@
-"""Opens the sources of a sheet: files, meshes and scenes alike.
+"""Opens the sources of a sheet: whatever `engine3d.render` draws.
 
-In: the caller's sources. Out: a `ViewedScene`.
+In: the caller's sources. Out: a `ViewedScene` for each.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, BinaryIO, TypeAlias
+from typing import Any
+
+import numpy as np
 
 from ...errors import InvalidArgumentError, printable
-from ...model.geometry.mesh import Mesh
-from ...model.scene.scene import Scene
 from ...stage.open_models import open_models
 from ...stage.viewed_scene import ViewedScene
+from ...stage.viewed_thing import is_file, viewed_of
 
-SheetSource: TypeAlias = str | os.PathLike[str] | BinaryIO | Mesh | Scene
 
-
-def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -> list[ViewedScene]:
+def open_sources(sources: Any, root: str | os.PathLike[str] | None = None) -> list[ViewedScene]:
     """Return the viewed scene of one or several sources.
 
     Parameters
     ----------
-    sources : path, binary file object, Mesh, Scene, or an iterable of these
-    **options
-        As of `engine3d.stage.open_model.open_model`, for files.
+    sources : what `engine3d.render` takes, or an iterable of these
+        An array holds the points of one model.
+    root : path-like, optional
+        As in `load_mesh`, for files.
 
     Raises
     ------
@@ -33,27 +33,18 @@ def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -
         There is none, or one is something else.
     FileFormatError, FileAccessError
     """
-    is_one = isinstance(sources, (str, os.PathLike, Mesh, Scene)) or hasattr(sources, "read")
-    if not is_one and not isinstance(sources, Iterable):
-        raise InvalidArgumentError(
-            f"models are paths, meshes or scenes, not {type(sources).__name__}"
-        )
-    given = [sources] if is_one else list(sources)
+    is_several = isinstance(sources, Iterable) and not isinstance(sources, np.ndarray)
+    given = list(sources) if is_several and not is_file(sources) else [sources]
     if not given:
         raise InvalidArgumentError("a sheet needs a model")
-    return [_open(source, options) for source in given]
+    return [_open(source, root) for source in given]
 
 
-def _open(source: Any, options: dict[str, Any]) -> ViewedScene:
-    if isinstance(source, Scene):
-        return ViewedScene(source, "scene", themed=True)
-    if isinstance(source, Mesh):
-        scene = Scene()
-        scene.add(source, name=source.name)
-        title = printable(source.name) or "mesh"
-        return ViewedScene(scene, title, themed=True)
-    if not isinstance(source, (str, os.PathLike)) and not hasattr(source, "read"):
+def _open(source: Any, root: str | os.PathLike[str] | None) -> ViewedScene:
+    viewed = open_models([source], root=root) if is_file(source) else viewed_of(source)
+    if viewed is None:
         raise InvalidArgumentError(
-            f"a model is a path, a Mesh or a Scene, not {type(source).__name__}"
+            f"a model is a path, a scene, a node, a mesh or points, not {type(source).__name__}"
         )
-    return open_models([source], **options)
+    viewed.title = printable(viewed.title)
+    return viewed

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from ...base.image_size import check_size
 from ...errors import InvalidArgumentError, printable
+from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
 from ...rendering.canvas import Canvas, text_size
 from ...rendering.support_functions import support_of_box, support_of_scene
@@ -38,6 +39,15 @@ _PICTURE = Padding(14, 26, 14, 14)
 _SHARE = 0.8
 
 
+class Dress(NamedTuple):
+    """How models are drawn; see `PanelRenderer`."""
+
+    drawing: Mapping[str, Any]
+    look: Look
+    material: Material | None
+    marks: Mapping[str, Any]
+
+
 class Pages(NamedTuple):
     """The drawn panels and reports, model by model."""
 
@@ -52,8 +62,7 @@ def draw_pages(
     size: tuple[int, int] | None,
     up: str | None,
     unit: str | None,
-    drawing: Mapping[str, Any],
-    look: Look,
+    dress: Dress,
 ) -> Pages:
     """Draw all models; see `engine3d.sheets.contact_sheet`."""
     if up is not None and up not in UP_DIRECTIONS:
@@ -75,7 +84,7 @@ def draw_pages(
         if len(models) == 1:
             columns = 2 if len(specs) == 4 else None
         page = _Page(canvas, area, model, up or model.up, unit)
-        drawn, report = page.draw(specs, columns, drawing, look)
+        drawn, report = page.draw(specs, columns, dress)
         panels.append(drawn)
         reports.append(report)
     return Pages(canvas, panels, reports)
@@ -88,18 +97,16 @@ class _Page:
         self, canvas: Canvas, area: Rectangle, model: ViewedScene, up: str, unit: str | None
     ) -> None:
         self._canvas, self._area, self._model = canvas, area, model
-        self._up = up
+        self._up = model.up = up
         self._unit = model.unit or None if unit is None else printable(unit)
         large = area.height >= _LARGE and area.width >= _WIDE
         self._text = 2 if large else 1
 
-    def draw(
-        self, specs, columns: int | None, drawing, look: Look
-    ) -> tuple[list[Panel], dict[str, Any]]:
+    def draw(self, specs, columns: int | None, dress: Dress) -> tuple[list[Panel], dict[str, Any]]:
         scene, text = self._model.scene, self._text
         cameras = [node for node in scene.nodes if isinstance(node.object, Camera)]
         self._check_cameras(specs, cameras)
-        studio = PanelRenderer(self._model, self._up, drawing, look)
+        studio = PanelRenderer(self._model, self._up, *dress)
         alone = AloneScene(scene)
         extents = self._extents(studio, specs)
         x, y, width, height = self._area
@@ -108,7 +115,7 @@ class _Page:
         reaches = _reaches(specs, extents)
         rectangles, scale = lay_out(room, reaches, self._padding(_DRAWING), _GAP * text, columns)
         with studio:
-            self._choose_theme(studio, specs, extents[0])
+            self._choose_paper(studio, extents[0])
             self._canvas.rectangle(x, y, width, height, (*studio.paper.background, 255))
             panels = []
             for spec, extent, rectangle in zip(specs, extents, rectangles, strict=True):
@@ -145,12 +152,12 @@ class _Page:
             found.append(find_extent(support, center, sight.axes(studio.up)))
         return found
 
-    def _choose_theme(self, studio: PanelRenderer, specs, extent: Extent) -> None:
-        if studio.has_faces and not any(spec.kind == "isometric" for spec in specs):
+    def _choose_paper(self, studio: PanelRenderer, extent: Extent) -> None:
+        if studio.has_faces:
             return  # lines separate drawings of faces from any background
         area = Rectangle(0, 0, 160, 120)
         scale = _fitting_scale(extent, area, Padding(0, 0, 0, 0))
-        studio.choose_theme(*place_camera(extent, studio.sphere, area, Padding(0, 0, 0, 0), scale))
+        studio.choose_paper(*place_camera(extent, studio.sphere, area, Padding(0, 0, 0, 0), scale))
 
     def _place(self, spec, extent: Extent, rectangle: Rectangle, scale: float) -> Place:
         if spec.to_scale:
@@ -161,7 +168,7 @@ class _Page:
 
     def _mark_panel(self, panel: Panel, studio: PanelRenderer) -> None:
         canvas, text = self._canvas, self._text
-        theme = studio.stage_theme if panel.spec.kind == "isometric" else studio.paper
+        theme = panel.theme(studio.paper)
         x, y, width, height = panel.rectangle
         window = Canvas(canvas.pixels[y : y + height, x : x + width])
         if panel.spec.to_scale:

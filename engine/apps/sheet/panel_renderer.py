@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from ...choices import FrameCull
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
@@ -17,21 +16,23 @@ from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
 from ...stage.appearance import count_points, point_size
 from ...stage.blank import Sight
-from ...stage.chosen_surroundings import Surroundings
+from ...stage.coloring import show_numbers
 from ...stage.lighting import NO_LIGHTS, Lighting
-from ...stage.look import THEMED, Look
+from ...stage.look import Look
+from ...stage.overlays.numbers import take_marks
 from ...stage.overlays.theme import DARK, LIGHT, Theme
+from ...stage.renderer import Renderer as PictureRenderer
 from ...stage.scene_bounds import sphere_of_box
 from ...stage.studio import Studio, theme_for
 from ...stage.viewed_scene import ViewedScene
+from ...stage.viewed_thing import settings_for
 from ...stage.views.viewpoint import UP_DIRECTIONS
+from ...stage.visibility import Visibility
 from .layout import Rectangle
 
 OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "face_id")
 _SMALL = (160, 120)
 _SAMPLES = 4
-#: Radius of ambient occlusion, in radii of the model.
-_OCCLUSION = 0.2
 
 
 class PanelRenderer:
@@ -46,6 +47,10 @@ class PanelRenderer:
         ``backend`` and ``threads`` of `Renderer`.
     look : Look
         That of pictures.
+    material : Material or None
+        Replaces the model's own materials.
+    marks : Mapping
+        Numbers to show, as keywords of `Renderer.render`.
 
     Attributes
     ----------
@@ -56,17 +61,23 @@ class PanelRenderer:
     sphere : Sphere
         Round the model.
     has_faces, has_normal_maps : bool
-    paper, stage_theme : Theme
-        Grounds that the model stands out from: of drawings, whose lines help, and of pictures.
+    paper : Theme
+        The ground of drawings, whose lines help the model to stand out.
     """
 
     paper: Theme = LIGHT
-    stage_theme: Theme = LIGHT
 
     def __init__(
-        self, viewed: ViewedScene, up: str, drawing: Mapping[str, Any], look: Look
+        self,
+        viewed: ViewedScene,
+        up: str,
+        drawing: Mapping[str, Any],
+        look: Look,
+        material: Material | None,
+        marks: Mapping[str, Any],
     ) -> None:
-        self._look = look
+        self._viewed, self._look, self._material, self._marks = viewed, look, material, marks
+        show_numbers(viewed, take_marks(dict(marks)))
         self.scene = viewed.scene
         self.up = UP_DIRECTIONS[up]
         self.bounds = np.array(self.scene.bounds, np.float64)
@@ -81,14 +92,21 @@ class PanelRenderer:
         self._points = count_points(self.scene)
         self.has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
         self._renderer: Renderer | None = None
+        self._settings = settings_for(look, material=material)
         self.staged = StagedScene(self.scene)
-        Surroundings().put(self.staged, look.environment)
+        self._light()
+        shown_as = None if viewed.coloring is None else viewed.coloring.colored_thing
+        Visibility(self.staged, shown_as, material)
+
+    def _light(self) -> None:
+        """Light drawings, whatever lights the scene has."""
+        look, first = self._look, self._look.lights or NO_LIGHTS
+        self.staged.read_textures(self._settings.filtering)
+        self._settings.surroundings.put(self.staged, look.environment)
         self.staged.fog = None
-        first = look.lights or NO_LIGHTS
         self._lighting = Lighting(self.staged, self.up, look.light_intensity, first)
         self._lighting.choose(first)
-        is_lit = look.lights is not None and self.staged.environment is None
-        self._studio = Studio(self.staged, self.up, is_lit)
+        Studio(self.staged, self.up, look.lights is not None)
 
     def __enter__(self) -> PanelRenderer:
         return self
@@ -97,20 +115,15 @@ class PanelRenderer:
         if self._renderer is not None:
             self._renderer.close()
 
-    def choose_theme(self, camera: Camera, pose: np.ndarray) -> None:
-        """Choose backgrounds that contrast with the model, as seen by a camera.
-
-        Otherwise, the background is light.
-        """
+    def choose_paper(self, camera: Camera, pose: np.ndarray) -> None:
+        """Choose paper that contrasts with a model without faces, as seen by a camera."""
         self.staged.background = None
         self._lighting.follow(pose)
         with Renderer(*_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
         themes = {"dark": (DARK,), "light": (LIGHT,)}
         chosen = self._look.background if isinstance(self._look.background, str) else ""
-        self.stage_theme = theme_for(color, themes.get(chosen, (LIGHT, DARK)))
-        if not self.has_faces:
-            self.paper = self.stage_theme
+        self.paper = theme_for(color, themes.get(chosen, (LIGHT, DARK)))
 
     def draw(
         self,
@@ -118,51 +131,43 @@ class PanelRenderer:
         pose: np.ndarray,
         rectangle: Rectangle,
         *,
-        on_stage: bool = False,
-        azimuth: float = 0.0,
         both_sides: bool = False,
     ) -> Frame:
-        """Draw a panel.
+        """Draw a panel on paper.
 
         Parameters
         ----------
         camera, pose
         rectangle : Rectangle
             Its size counts.
-        on_stage : bool
-            Draw it in its look rather than on paper.
-        azimuth : float
-            From where it is looked at then, in radians.
         both_sides : bool
             Whether all faces show both sides.
         """
         self._lighting.follow(pose)
-        options: dict[str, Any] = {"tone_mapping": self._look.tone_mapping}
+        tone_mapping = self._viewed.appearance.get("tone_mapping", self._look.tone_mapping)
+        options: dict[str, Any] = {"tone_mapping": tone_mapping}
         if both_sides:
             options["cull"] = "none"
-        if on_stage:
-            self._lay_ground(pose, azimuth, options.get("cull", self._cull))
-            options["ambient_occlusion"] = self._look.ambient_occlusion
-            options["ambient_occlusion_radius"] = _OCCLUSION * self.sphere.radius
-        else:
-            self._studio.show_shadow(False)
-        self.staged.background = self._backdrop if on_stage else self.paper.background
-        outputs = OUTPUTS if on_stage else (*OUTPUTS, "world_normal")
+        self.staged.background = self.paper.background
+        outputs = (*OUTPUTS, "world_normal")
         return self.render(camera, pose, rectangle, outputs=outputs, **options)
 
-    def _lay_ground(self, pose: np.ndarray, azimuth: float, cull: FrameCull) -> None:
-        """Draw the shadow on the ground, if the look has one."""
-        if self._look.ground:
-            self._studio.lay_shadow(self.sphere, azimuth, cull, (*pose[:3, 2], 0.0))
-
-    @property
-    def _backdrop(self) -> Any:
-        """The background of pictures."""
-        background = self._look.background
-        if isinstance(background, str):
-            is_own = background not in THEMED
-            return self.scene.background if is_own else self.stage_theme.gradient
-        return background
+    def picture(self, camera: Camera, pose: np.ndarray, rectangle: Rectangle) -> Frame:
+        """Draw a panel as `engine3d.render` draws the model with this camera."""
+        with PictureRenderer(
+            rectangle.width,
+            rectangle.height,
+            look=self._look,
+            material=self._material,
+            **self._drawing,
+        ) as renderer:
+            return renderer.render(
+                self._viewed,
+                (camera, pose),
+                outputs=OUTPUTS,
+                transparent_outputs=True,
+                **self._marks,
+            )
 
     def options(self, rectangle: Rectangle, *, both_sides: bool) -> dict[str, Any]:
         """Return the options that draw the same pixels: ``cull``, ``backend`` and so on."""

@@ -6,16 +6,17 @@ what the report and questions about pixels need.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...base import linalg
 from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
-from ...rendering.canvas import Canvas
+from ...rendering.canvas import Canvas, text_size
 from ...rendering.frame import Frame
 from ...stage.blank import Reason, reason_of
+from ...stage.overlays.theme import DARK, LIGHT, Theme
 from .caps import Caps, find_caps, paint_caps
 from .cutting import Plane
 from .hidden import AloneScene
@@ -30,6 +31,8 @@ from .visible import SAME_COLOUR, box_of, contrast
 _CUT = 0x7FFFFFFF
 # Maximum distance of a section plane from the model's box, in radii of the model.
 _BESIDE = 0.01
+# Code values above this are bright.
+_MIDDLE = 127.5
 
 
 @dataclass
@@ -46,6 +49,8 @@ class Panel:
     scale : float or None
         Pixels per world unit; None with perspective.
     matrices : Matrices
+    pose_in_file : (4, 4) ndarray of float64
+        The pose in the file's coordinates.
     frame : Frame
         What was drawn.
     shown : (H, W) ndarray of bool
@@ -66,12 +71,20 @@ class Panel:
     pose: np.ndarray
     scale: float | None
     matrices: Matrices
+    pose_in_file: np.ndarray
     frame: Frame
     shown: np.ndarray
     caps: Caps | None = None
     alone: dict[int, int | None] = field(default_factory=dict)
     reason: Reason | None = None
     contrast: int = 0
+
+    def theme(self, paper: Theme) -> Theme:
+        """Return the theme whose texts can be read on the panel."""
+        if not self.spec.is_picture:
+            return paper
+        corner = self.frame.color[: text_size("")[1] * 2, :, :3]
+        return LIGHT if float(corner.mean()) > _MIDDLE else DARK
 
     @property
     def box(self) -> tuple[int, int, int, int] | None:
@@ -114,7 +127,10 @@ def draw_panel(
     """
     spec, rectangle = place.spec, place.rectangle
     camera, pose, scale = _camera(studio, place, cameras, origin)
-    frame = _draw(studio, spec, camera, pose, rectangle)
+    if spec.is_picture:
+        frame = studio.picture(camera, pose, rectangle)
+    else:
+        frame = studio.draw(camera, pose, rectangle, both_sides=spec.section is not None)
     shown = studio.staged.own_pixels(frame.object_id)
     panel = Panel(
         spec,
@@ -124,6 +140,7 @@ def draw_panel(
         pose,
         scale,
         find_matrices(camera, pose, rectangle, origin),
+        linalg.multiply(linalg.translation(origin), pose),
         frame,
         shown,
     )
@@ -131,7 +148,7 @@ def draw_panel(
         plane = _plane(studio, spec, origin)
         panel.caps = find_caps(studio, plane, camera, pose, rectangle)
         _show_caps(panel, plane, origin)
-    if spec.kind != "isometric":
+    if not spec.is_picture:
         _ink(panel, studio)
     _look_for_reasons(panel, studio)
     options = studio.options(rectangle, both_sides=spec.section is not None)
@@ -197,17 +214,12 @@ def _plane(studio: PanelRenderer, spec: ViewSpec, origin) -> Plane | None:
     return Plane(axis, coordinate - origin[axis], spec.section.from_above)
 
 
-def _draw(studio: PanelRenderer, spec: ViewSpec, camera, pose, rectangle) -> Frame:
-    if spec.kind == "isometric":
-        azimuth = math.radians(spec.angles[0])
-        return studio.draw(camera, pose, rectangle, on_stage=True, azimuth=azimuth)
-    return studio.draw(camera, pose, rectangle, both_sides=spec.section is not None)
-
-
 def _contrast(studio: PanelRenderer, panel: Panel) -> int:
     ground = studio.paper.background
-    if panel.spec.kind == "isometric":
-        ground = studio.stage_theme.gradient.bottom
+    if panel.spec.is_picture:
+        # The ground is what pictures show in their lower left corner, beside the model.
+        red, green, blue, _ = panel.frame.color[-1, 0].tolist()
+        ground = red, green, blue
     return contrast(panel.frame, panel.shown, ground)
 
 

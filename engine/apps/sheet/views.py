@@ -110,6 +110,11 @@ class ViewSpec:
         """Whether it is drawn at the sheet's scale."""
         return self.kind in ("drawing", "section")
 
+    @property
+    def is_picture(self) -> bool:
+        """Whether it is a picture, as `engine3d.render` draws it, rather than a drawing."""
+        return self.kind in ("isometric", "camera")
+
     def axes(self, up) -> np.ndarray:
         """Return the camera's axes in world space: (3, 3), columns right, up and back."""
         if self.is_oblique:

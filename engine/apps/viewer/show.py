@@ -104,7 +104,7 @@ def show(
     taken = take_marks(dict(marks))
     motion = {"title": title, "up": up, "update": update, "period": period}
     try:
-        _show(thing, size, format, settings_for(thing, look, marks=taken), marks=taken, **motion)
+        _show(thing, size, format, settings_for(look, marks=taken), marks=taken, **motion)
     except DisplayError as error:
         if not _in_a_kernel():
             raise
@@ -139,7 +139,7 @@ def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] |
     size = size or SIZE
     with (
         Window(*size, f"{viewed.title} - engine3d") as window,
-        ViewRenderer(viewed, settings, size) as view_renderer,
+        ViewRenderer(viewed, settings, size, antialiasing="msaa") as view_renderer,
     ):
         view = view_of_scene(view_renderer)
         try:

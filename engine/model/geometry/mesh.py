@@ -571,7 +571,7 @@ class Mesh(Closed):
 
     def _repr_png_(self) -> bytes | None:
         """Return a picture for notebooks; see `thumbnail`."""
-        from ...rendering.thumbnail import thumbnail
+        from ...stage.thumbnail import thumbnail
 
         return thumbnail(self)
 

@@ -321,7 +321,7 @@ class Material(Versioned):
 
     def _repr_png_(self) -> bytes | None:
         """Return a picture for notebooks; see `thumbnail`."""
-        from ...rendering.thumbnail import thumbnail
+        from ...stage.thumbnail import thumbnail
 
         return thumbnail(self)
 

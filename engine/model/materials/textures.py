@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias, TypedDict, get_args
 
@@ -179,12 +179,21 @@ class Texture(Closed):
 
     def _repr_png_(self) -> bytes | None:
         """Return a picture for notebooks; see `thumbnail`."""
-        from ...rendering.thumbnail import thumbnail
+        from ...stage.thumbnail import thumbnail
 
         return thumbnail(self)
 
     def __repr__(self) -> str:
         return f"Texture({self.width}x{self.height}, name={self.name!r})"
+
+
+#: Returns with which anisotropy and with which bias a texture is read in a picture.
+Reading: TypeAlias = Callable[[Texture], tuple[int, float]]
+
+
+def own_reading(texture: Texture) -> tuple[int, float]:
+    """Return the anisotropy and the bias that a texture says."""
+    return texture.anisotropy, texture.lod_bias
 
 
 def image_file_of(texture: Texture) -> ImageFile:

@@ -37,6 +37,7 @@ from .nodes import Node
 
 if TYPE_CHECKING:
     from ..materials.material import Material
+    from ..materials.textures import Reading
     from ..motion.skins import Skin
     from .nodes import SceneObject
     from .scene import Scene
@@ -69,9 +70,12 @@ class SceneData:
         How often a node was renamed.
     untextured : frozenset of Material
         Materials drawn without their textures.
+    reading : callable or None
+        Returns with which anisotropy and bias a texture is read; None is its own.
     """
 
     untextured: frozenset[Material] = frozenset()
+    reading: Reading | None = None
 
     def __init__(self) -> None:
         self.arrays = NodeArrays()

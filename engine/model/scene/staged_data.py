@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..._native.scene_graph import BOX, SHOWN
 from ..materials.material import Material
+from ..materials.textures import Reading
 from ._objects import NO_BOX
 from .node_arrays import NodeArrays
 from .nodes import Node
@@ -41,6 +42,8 @@ class StagedData:
         The data of the scene, and of the nodes beside it.
     keeps_lights, shows_textures : bool
         Whether the scene's own lights shine, and its materials show their textures.
+    reading : callable or None
+        As in `SceneData`.
     hidden : frozenset of Node
     part_of : callable or None
         As given to `StagedScene.hide`.
@@ -51,6 +54,7 @@ class StagedData:
     def __init__(self, own: SceneData, added: SceneData) -> None:
         self.own, self.added = own, added
         self.keeps_lights = self.shows_textures = True
+        self.reading: Reading | None = None
         self.hidden: frozenset[Node] = frozenset()
         self.part_of: Callable[[Any], Any] | None = None
         self.arrays = _JoinedRows(self)
@@ -240,7 +244,7 @@ class _JoinedObjects:
             self._room *= 2
         if staged.part_of is not None:
             self._make_parts(staged.part_of, staged.posing)
-        looks = self._added, self._room, self.renewals, staged.shows_textures
+        looks = self._added, self._room, self.renewals, staged.shows_textures, staged.reading
         version = self._own.version, self._added.version, *looks
         if version != self.version:
             free = [None] * (self._room - len(self._own.objects))

@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ..materials.textures import Reading
 from .nodes import Node
 from .scene import Scene
 from .staged_data import StagedData
@@ -62,6 +63,16 @@ class StagedScene(Surroundings):
     def show_textures(self, shown: bool) -> None:
         """Switch the textures of the scene's materials on or off."""
         self.data.shows_textures = shown
+
+    def read_textures(self, reading: Reading | None) -> None:
+        """Read textures otherwise than they say.
+
+        Parameters
+        ----------
+        reading : callable or None
+            Called with a `Texture`; returns its anisotropy and its bias in this picture.
+        """
+        self.data.reading = reading
 
     def hide(self, nodes: Iterable[Node], part_of: Callable[[Any], Any] | None = None) -> None:
         """Hide nodes of the scene, but not their children; all other nodes show.

@@ -19,6 +19,7 @@ from ...base.dirty_tracking import Watch
 from ...choices import ColorSpace, Normals
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
+from ...model.materials.textures import Reading
 from ...model.motion.posed_mesh import PosedMesh
 from ...model.scene.instances import InstancedMesh, flat_poses, shown_ids
 from ...model.scene.staged_data import AnyData
@@ -70,7 +71,8 @@ class DrawList:
         self._data: Callable[[], AnyData | None] = lambda: None
         self._objects_version: Any = -1  # version of the objects, from either kind of scene
         self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
-        self._untextured: frozenset[Material] = frozenset()
+        # Of the scene: materials without textures, and how textures are read.
+        self._textures: tuple[frozenset[Material], Reading | None] = frozenset(), None
         # The numbers of closed objects.
         self._closed: set[int] = set()
         self._with_holes: set[int] = set()  # the closed objects that have holes
@@ -177,7 +179,8 @@ class DrawList:
         numbers = self._numbers_that_changed(data) if same else None
         self._data = lambda: None  # if anything below raises, the list is not current
         self._listing = listing
-        self._untextured = self._materials.untextured = data.untextured
+        self._textures = data.untextured, data.reading
+        self._materials.untextured, self._materials.reading = self._textures
         if numbers is None:
             self._rebuild(data)
         else:
@@ -222,7 +225,7 @@ class DrawList:
         self.lights.forget()
         self._watch, self._changed = Watch(), []
         self._materials = MaterialList(self.native, self._color_space, self._watch)
-        self._materials.untextured = self._untextured
+        self._materials.untextured, self._materials.reading = self._textures
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False
         self._make_textures(data)

@@ -19,7 +19,7 @@ from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
 from ...model.materials.material import PARAMETERS, Material, placed_textures_of
 from ...model.materials.parameters import TextureSlot
-from ...model.materials.textures import PlacedTexture, Texture
+from ...model.materials.textures import PlacedTexture, Reading, Texture
 from .native_handles import is_new, native_texture
 
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
@@ -45,11 +45,14 @@ class MaterialList:
     ----------
     untextured : frozenset of Material
         Materials set without their textures.
+    reading : callable or None
+        As in `SceneData`.
     """
 
     def __init__(self, native: NativeDrawList, color_space: ColorSpace, watch: Watch) -> None:
         self._native, self._color_space, self._watch = native, color_space, watch
         self.untextured: frozenset[Material] = frozenset()
+        self.reading: Reading | None = None
         # For each material its places, their owners, and whether both sides are forced to show.
         self._places: dict[Material, list[tuple[int, int, bool]]] = {}
         # For each material, the normals it needs and whether it is opaque.
@@ -88,7 +91,7 @@ class MaterialList:
             How many may be made at once; 0: as many as there are CPUs.
         """
         wanted = dict.fromkeys(
-            (placed.texture, _space(slot, self._color_space))
+            (placed.texture, _space(slot, self._color_space), self.reading)
             for material in materials
             if material not in self.untextured
             for slot, placed in placed_textures_of(material).items()
@@ -118,8 +121,16 @@ class MaterialList:
         space = self._color_space
         sides = {"id": number, "two_sided": both or material.two_sided}
         physical = _physical(material, space) if material.is_physical else None
-        uses = {slot: _use(slot, use, space) for slot, use in placed.items()}
+        uses = {slot: self._use(slot, use) for slot, use in placed.items()}
         self._native.set_material(index, _numbers(material, space) | sides, physical, uses)
+
+    def _use(
+        self, slot: str, placed: PlacedTexture
+    ) -> tuple[NativeTexture, int, list[float] | None]:
+        """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
+        space = _space(slot, self._color_space)
+        handle = native_texture(placed.texture, space, self.reading)
+        return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None
 
     def _note_textures(self, material: Material, textures: set[Texture]) -> None:
         """Watch the textures of a material, and stop watching those that no material uses now."""
@@ -188,11 +199,3 @@ def _absorption(left: float, depth: float) -> float:
 def _space(slot: str, color_space: ColorSpace) -> ColorSpace:
     row = PARAMETERS[slot]
     return color_space if isinstance(row, TextureSlot) and row.is_color else "linear"
-
-
-def _use(
-    slot: str, placed: PlacedTexture, color_space: ColorSpace
-) -> tuple[NativeTexture, int, list[float] | None]:
-    """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
-    handle = native_texture(placed.texture, _space(slot, color_space))
-    return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None

@@ -1,14 +1,14 @@
 """Native handles of meshes, textures and environments, created on demand and cached.
 
 In: `Mesh`, `Texture`, `Environment`. Out: their native handles, recreated when arrays change (a
-texture has one for each way to decode it), and freed with the object. Arrays that only some
-pictures need (normals, edges) are added to a mesh's handle on demand.
+texture has one for each way to decode it, and for each to read it), and freed with the object.
+Arrays that only some pictures need (normals, edges) are added to a mesh's handle on demand.
 """
 
 from __future__ import annotations
 
 import operator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 from weakref import WeakKeyDictionary
 
 from ..._native.rasterizer import (
@@ -25,7 +25,7 @@ from ...model.geometry.derived import arrays_of, derived
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.native_meshes import drawn_arrays, make_native_mesh
 from ...model.geometry.vertex_attributes import vertex_attributes
-from ...model.materials.textures import Texture
+from ...model.materials.textures import Reading, Texture, own_reading
 
 
 class MeshNeeds(NamedTuple):
@@ -40,9 +40,8 @@ _meshes: WeakKeyDictionary[Mesh, tuple[dict[str, Any], dict[str, Any], NativeMes
     WeakKeyDictionary()
 )
 _environments: WeakKeyDictionary[Environment, NativeEnvironment] = WeakKeyDictionary()
-_textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple[Any, ...], NativeTexture]]] = (
-    WeakKeyDictionary()
-)
+_Handles: TypeAlias = dict[tuple[bool, bool], tuple[tuple[Any, ...], NativeTexture]]
+_textures: WeakKeyDictionary[Texture, _Handles] = WeakKeyDictionary()
 
 
 def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
@@ -79,18 +78,30 @@ def is_new(texture: Texture) -> bool:
     return texture not in _textures
 
 
-def native_texture(texture: Texture, color_space: ColorSpace) -> NativeTexture:
-    """Return a texture's current handle, for renderers with a given colour space."""
+def native_texture(
+    texture: Texture, color_space: ColorSpace, reading: Reading | None = None
+) -> NativeTexture:
+    """Return a texture's current handle, for renderers with a given colour space.
+
+    Parameters
+    ----------
+    texture : Texture
+    color_space : {"srgb", "linear"}
+    reading : callable, optional
+        As in `SceneData`.
+    """
     pixels = texture.pixels
-    sampling = texture.filter, texture.side_wraps, texture.anisotropy, texture.lod_bias
+    read = (reading or own_reading)(texture)
+    sampling = texture.filter, texture.side_wraps, *read
     decode = color_space == "srgb" and texture.color_space == "srgb"
+    key = decode, read != own_reading(texture)
     natives = _textures.setdefault(texture, {})
-    known = natives.get(decode)
+    known = natives.get(key)
     if known is None or known[0][0] is not pixels or known[0][1:] != sampling:
         filter, sides, *level = sampling
         wraps = (WRAPS[name] for name in sides)
         native = NativeTexture(pixels, decode, FILTERS[filter], *wraps, *level)
-        known = natives[decode] = (pixels, *sampling), native
+        known = natives[key] = (pixels, *sampling), native
     return known[1]
 
 

@@ -95,7 +95,11 @@ def _camera_node(view_renderer: ViewRenderer, index: int) -> Node:
 
 
 def view_of_scene(view_renderer: ViewRenderer) -> Viewpoint | None:
-    """Return the view of the scene's first visible camera; None if none has an eye."""
+    """Return the view of the scene's first visible camera; None if none has an eye.
+
+    The theme is then the one of pictures by `engine3d.render`, whatever the camera sees.
+    """
+    view_renderer.choose_theme(FirstView().place(view_renderer, turns=False))
     node = view_renderer.viewed.scene.data.camera_node()
     if node is None:
         return None

@@ -17,6 +17,7 @@ from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.orbiting import home_axes
 from ...model.scene.scene import Scene
 from ...rendering import framing
+from ..near_origin import pose_in_file
 from ..viewed_scene import ViewedScene
 from ..viewed_thing import viewed_of
 from .viewpoint import UP_DIRECTIONS
@@ -63,9 +64,10 @@ def frame_bounds(
     viewed = None if isinstance(bounds, (np.ndarray, list, tuple)) else viewed_of(bounds)
     box = bounds if viewed is None else viewed.scene.bounds
     direction, up = _directions(viewed, direction, up)
-    return framing.frame_bounds(
+    camera, pose = framing.frame_bounds(
         box, aspect=aspect, yfov=yfov, direction=direction, up=up, margin=margin
     )
+    return camera, pose if viewed is None else pose_in_file(viewed, pose)
 
 
 def frame_scene(
@@ -105,9 +107,10 @@ def frame_scene(
         )
     direction, up = _directions(viewed, direction, up)
     drawn = scene if viewed is None else viewed.scene
-    return framing.frame_scene(
+    camera, pose = framing.frame_scene(
         drawn, aspect=aspect, yfov=yfov, direction=direction, up=up, margin=margin
     )
+    return camera, pose if viewed is None else pose_in_file(viewed, pose)
 
 
 def _directions(

@@ -1,6 +1,7 @@
 """What hands do in the picture of the scene: they select, move the camera, and drag the gizmo."""
 
 import numpy as np
+import pytest
 from editor.ui.editor_hands import (
     SIZE,
     click,
@@ -13,7 +14,9 @@ from editor.ui.editor_hands import (
     settle,
 )
 
+import engine3d as e3d
 from engine3d import events
+from engine3d.model.scene.lights import LIGHTS
 
 
 def test_the_scene_is_shown_to_the_byte_between_the_panels(editor):
@@ -21,6 +24,75 @@ def test_the_scene_is_shown_to_the_byte_between_the_panels(editor):
     height, width = editor._scene._frame.color.shape[:2]
     assert x > 100 and y > 20 and x + width < SIZE[0] - 100
     assert height > 200 and len(np.unique(editor._pixels[:, :x].reshape(-1, 4), axis=0)) > 50
+
+
+def shown(editor):
+    """Return the pixels of the window where the scene is, and what `render` draws there."""
+    frame, (x, y) = editor._scene._frame, scene_corner(editor)
+    size = frame.width, frame.height
+    drawn = e3d.render(
+        editor.workspace.scene,
+        editor.workspace.camera(),
+        size=size,
+        look=editor.workspace.display.worn_look,
+    )
+    return editor._pixels[y : y + size[1], x : x + size[0]], drawn.color
+
+
+def put_out(workspace):
+    """Take all light from the scene."""
+    for node in list(workspace.scene.nodes):
+        if isinstance(node.object, LIGHTS):
+            workspace.scene.remove(node)
+    workspace.scene.ambient = (0, 0, 0)
+    workspace.changes += 1
+
+
+@pytest.mark.parametrize("look", ["studio", "plain", None])
+@pytest.mark.parametrize("is_lit", [False, True])
+def test_the_view_as_rendered_is_what_render_draws(editor, look, is_lit):
+    workspace = editor.workspace
+    if not is_lit:
+        put_out(workspace)
+    before = editor._scene._frame.color.copy()
+    workspace.display.look, workspace.display.as_rendered, workspace.display.wireframe = (
+        look,
+        True,
+        True,
+    )
+    workspace.tools.chosen = "move"
+    workspace.document.selection.set([find(editor, "Smoke")])
+    for orthographic in (False, True):
+        workspace.view.orthographic = orthographic
+        settle(editor)
+        window, drawn = shown(editor)
+        assert np.array_equal(window, drawn)
+        assert is_lit or not np.array_equal(before, drawn) or workspace.display.worn_look == "plain"
+    click(editor, *middle_of(editor, find(editor, "Cab")))
+    assert workspace.document.selection.nodes == (find(editor, "Cab"),)
+    height, width = drawn.shape[:2]
+    x, y = scene_corner(editor)
+    for place in ((10, height - 10), (width - 10, height - 10), (width // 2, height - 5)):
+        click(editor, x + place[0], y + place[1])  # perhaps on the ground, which is no node
+    settle(editor)
+    assert np.array_equal(*shown(editor))
+
+
+def test_a_look_dresses_the_view_that_one_works_in(editor):
+    workspace = editor.workspace
+    put_out(workspace)
+    pictures = []
+    for look in (None, "studio", "plain"):
+        for mode in ("lit", "normal"):
+            workspace.display.look, workspace.display.mode = look, mode
+            settle(editor)
+            pictures.append(editor._scene._frame.color.tobytes())
+    assert pictures[:2] == pictures[4:]
+    assert not {*pictures[:2]} & {*pictures[2:4]}
+    workspace.document.selection.set([find(editor, "Smoke")])
+    workspace.display.look, workspace.display.mode = "studio", "lit"
+    settle(editor)
+    assert editor._scene._frame.color.tobytes() not in pictures  # it has an outline
 
 
 def test_a_click_in_the_scene_selects(editor):

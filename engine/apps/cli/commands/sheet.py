@@ -8,9 +8,11 @@ import os
 from ....base.files.atomic_write import atomic_write
 from ....base.files.making_folders import make_folder_of
 from ....errors import InvalidArgumentError
+from ....model.materials.material import Material
 from ...sheet.contact_sheet import Sheet, contact_sheet
 from ...sheet.views import DEFAULT_VIEWS, check_views
 from ..options.input_options import model_files
+from ..options.scalar_options import marks
 from ..outputs import (
     STANDARD_OUTPUT,
     check_folder,
@@ -33,6 +35,9 @@ def sheet(args: argparse.Namespace) -> int:
         up=args.up,
         unit=args.unit,
         root=args.root,
+        look=args.look,
+        material=None if args.color is None else Material(color=args.color),
+        **marks(args),
         backend=args.backend,
         threads=args.threads,
     )

@@ -119,14 +119,14 @@ def _add_texture_filters(group) -> None:
         type=values.anisotropy,
         metavar="N",
         help="read textures at up to N places a pixel, 1 to 16, where surfaces recede; by default "
-        "as their materials say, but at least 8",
+        "as they say, and 8 where they say nothing",
     )
     group.add_argument(
         "--lod-bias",
         type=values.lod_bias,
         metavar="B",
         help="added to the level of detail of textures: less than 0 is sharper and flickers more; "
-        "by default as their materials say, and -0.25 where these say nothing",
+        "by default as they say, and -0.25 where they say nothing",
     )
 
 

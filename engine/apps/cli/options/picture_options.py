@@ -38,6 +38,18 @@ def add_drawing(group) -> None:
     )
 
 
+def add_look(group) -> None:
+    """Add the option for the look."""
+    group.add_argument(
+        "--look",
+        choices=LOOKS,
+        default=LOOKS[0],
+        help="studio, the default: models stand on their shadow before a gradient, in soft light, "
+        "with ambient occlusion and neutral tone mapping; plain: with none of these, lit from the "
+        "camera, before black. Other options have the last word",
+    )
+
+
 def add_picture(parser) -> None:
     """Add the options for the picture's size and drawing."""
     group = parser.add_argument_group("picture")
@@ -47,14 +59,7 @@ def add_picture(parser) -> None:
         metavar="WxH",
         help="size in pixels; 1280x720 by default",
     )
-    group.add_argument(
-        "--look",
-        choices=LOOKS,
-        default=LOOKS[0],
-        help="studio, the default: models stand on their shadow before a gradient, in soft light, "
-        "with ambient occlusion and neutral tone mapping; plain: with none of these, lit from the "
-        "camera, before black. Other options have the last word",
-    )
+    add_look(group)
     _add_antialiasing(group)
     add_drawing(group)
     group.add_argument(

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING, Any
 
 from .. import values
+
+if TYPE_CHECKING:
+    from ....stage.overlays.numbers import Numbers
 
 #: Options that colour models by numbers.
 COLORING = (
@@ -78,21 +82,29 @@ def add_scalars(parser) -> None:
     )
 
 
-def coloring(args: argparse.Namespace):
+def marks(args: argparse.Namespace) -> dict[str, Any]:
+    """Return what the options say about numbers, as keywords of `engine3d.render`."""
+    from ....stage.overlays.numbers import DEFAULT_MAP
+
+    by_cells = "faces" if args.coloring_by_cells else None
+    given = {
+        "color_by": args.coloring_array,
+        "colormap": args.colormap or (DEFAULT_MAP if args.scalar_coloring else None),
+        "clim": args.range,
+        "component": args.coloring_component,
+        "on": by_cells,
+    }
+    held = {name: value for name, value in given.items() if value is not None}
+    return held | {name: True for name, is_shown in shown(args).items() if is_shown}
+
+
+def coloring(args: argparse.Namespace) -> Numbers | None:
     """Return the `Numbers` that the options describe, or None."""
     if "scalar_coloring" not in args:  # some commands have no such options
         return None
-    if all(getattr(args, name) is None or getattr(args, name) is False for name in COLORING):
-        return None
-    from ....stage.overlays.numbers import DEFAULT_MAP, MAGNITUDE, Numbers
+    from ....stage.overlays.numbers import take_marks
 
-    return Numbers(
-        args.coloring_array,
-        args.colormap or DEFAULT_MAP,
-        args.range,
-        MAGNITUDE if args.coloring_component is None else args.coloring_component,
-        "faces" if args.coloring_by_cells else None,
-    )
+    return take_marks(marks(args)).numbers
 
 
 def shown(args: argparse.Namespace) -> dict:

@@ -23,6 +23,17 @@ OF_MODELS = (
 )
 
 
+def add_color(group) -> None:
+    """Add the option for the colour of models."""
+    group.add_argument(
+        "--color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour of the whole model, instead of its materials and colours; with --texture, of "
+        "what has no materials; of a scene, of what has no texture and does not glow",
+    )
+
+
 def add(parser) -> None:
     """Add the options for models and scenes."""
     group = parser.add_argument_group("what to show")
@@ -65,13 +76,7 @@ def add(parser) -> None:
         help="texture for a model without materials; by default an image of the same name "
         "beside the model",
     )
-    group.add_argument(
-        "--color",
-        type=values.color,
-        metavar="COLOR",
-        help="colour of the whole model, instead of its materials and colours; with --texture, of "
-        "what has no materials; of a scene, of what has no texture and does not glow",
-    )
+    add_color(group)
     group.add_argument(
         "--animation-index",
         type=values.index,

@@ -8,7 +8,9 @@ from __future__ import annotations
 from .. import values
 from .camera_options import add_up
 from .input_options import add_root
-from .picture_options import add_drawing
+from .picture_options import add_drawing, add_look
+from .scalar_options import add_scalars
+from .scene_options import add_color
 
 
 def add(parser) -> None:
@@ -58,4 +60,8 @@ def add(parser) -> None:
     )
     add_root(group)
     add_up(group)
-    add_drawing(parser.add_argument_group("drawing"))
+    add_color(group)
+    add_scalars(parser)
+    group = parser.add_argument_group("drawing")
+    add_look(group)
+    add_drawing(group)

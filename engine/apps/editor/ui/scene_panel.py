@@ -11,16 +11,15 @@ import time
 import numpy as np
 from imgui_bundle import imgui
 
-from ....model.scene.cameras import PerspectiveCamera
 from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
-from ....rendering.renderer import Renderer
-from ....stage.overlays.selection_outline import CLICK_OUTPUTS, outline_pixels
+from ....stage.overlays.selection_outline import outline_pixels
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
 from .overlays import Overlays
 from .panel_layout import begin_panel
+from .scene_pictures import ScenePictures
 from .scene_tools import draw_tools
 from .workspace import Workspace
 
@@ -51,7 +50,7 @@ class ScenePanel:
 
     def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
         self._workspace, self._painter = workspace, painter
-        self._renderer: Renderer | None = None
+        self._pictures = ScenePictures(workspace)
         self._number = 0
         self._frame: Frame | None = None
         self._drawn: tuple = ()
@@ -65,9 +64,7 @@ class ScenePanel:
 
     def close(self) -> None:
         """Free the renderer."""
-        if self._renderer is not None:
-            self._renderer.close()
-            self._renderer = None
+        self._pictures.close()
 
     def node_under_mouse(self) -> Node | None:
         """Return the node under the mouse, if the mouse is over the scene."""
@@ -103,39 +100,29 @@ class ScenePanel:
         imgui.image(imgui.ImTextureRef(self._number), size)
         hovered = self._is_hovered = imgui.is_item_hovered()
         self._corner = corner
-        self._overlays.draw(self._frame, corner)
-        self._draw_times(corner)
-        captured = self._gizmo.draw(corner, size)
+        captured = False
+        if not self._workspace.display.as_rendered:
+            self._overlays.draw(self._frame, corner)
+            self._draw_times(corner)
+            captured = self._gizmo.draw(corner, size)
         self._turn_camera(hovered and not captured, corner, size)
         self._select(corner)
 
     def _render(self, size: tuple[int, int]) -> None:
         workspace = self._workspace
         key = (
-            *(size, workspace.mode, workspace.wireframe, workspace.changes),
+            *(size, workspace.display.mode, workspace.display.wireframe, workspace.changes),
+            *(workspace.display.look, workspace.display.as_rendered),
             *(workspace.view.pose().tobytes(), workspace.view.orthographic),
             *(workspace.view.distance, workspace.document.selection.version),
             *(workspace.scene, workspace.scene.data.arrays.changes),
         )
         if key == self._drawn:
             return
-        if self._renderer is None or (self._renderer.width, self._renderer.height) != size:
-            self.close()
-            self._renderer = Renderer(*size)
-        camera = workspace.view.camera(workspace.bounds)
-        if isinstance(camera, PerspectiveCamera):
-            camera.reversed_depth = True
         start = time.perf_counter()
-        self._frame = frame = self._renderer.render(
-            workspace.scene,
-            (camera, workspace.view.pose()),
-            mode=workspace.mode,
-            cull="auto",
-            wireframe="overlay" if workspace.wireframe else None,
-            outputs=CLICK_OUTPUTS,
-        )
+        self._frame = frame = self._pictures.draw(size)
         self._seconds = time.perf_counter() - start
-        ids = self._selected_ids()
+        ids = [] if workspace.display.as_rendered else self._selected_ids()
         if ids:
             outline_pixels(frame, np.isin(frame.object_id, ids))
         if not self._number:

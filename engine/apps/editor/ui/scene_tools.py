@@ -9,11 +9,12 @@ from typing import get_args
 
 from imgui_bundle import imgui
 
-from ....choices import Mode
+from ....choices import LookName, Mode
 from .overlays import Overlays
 from .workspace import Workspace
 
 MODES = get_args(Mode)
+LOOKS: tuple[LookName | None, ...] = (None, *get_args(LookName))
 TOOLS = {"select": "Q", "move": "W", "turn": "E", "scale": "R"}
 #: The unit of each tool's step, and its drag speed.
 _UNITS = {"move": ("units", 0.01), "turn": ("degrees", 0.5), "scale": ("per cent", 0.5)}
@@ -35,17 +36,39 @@ def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
     _beside("Steps")
     _draw_steps(workspace)
     _draw_time(workspace)
-    width = imgui.get_font_size() * 7
-    _beside("", width)
-    imgui.set_next_item_width(width)
-    _, chosen = imgui.combo("##mode", MODES.index(workspace.mode), list(MODES))
-    workspace.mode = MODES[chosen]
-    _beside("Wireframe", boxes=1)
-    _, workspace.wireframe = imgui.checkbox("Wireframe", workspace.wireframe)
+    _draw_looks(workspace)
+    imgui.begin_disabled(workspace.display.as_rendered)
+    _draw_modes(workspace)
+    imgui.end_disabled()
     _beside("Parallel", boxes=1)
     _, workspace.view.orthographic = imgui.checkbox("Parallel", workspace.view.orthographic)
     _beside("Show")
     overlays.draw_menu()
+
+
+def _draw_looks(workspace: Workspace) -> None:
+    """Lay out the choice of the look, and of pictures as they are rendered."""
+    _beside("As rendered", boxes=1)
+    _, workspace.display.as_rendered = imgui.checkbox("As rendered", workspace.display.as_rendered)
+    imgui.set_item_tooltip("what engine3d.render draws, without marks")
+    width = imgui.get_font_size() * 7
+    _beside("", width)
+    imgui.set_next_item_width(width)
+    names = [look or "auto" for look in LOOKS]
+    _, chosen = imgui.combo("##look", LOOKS.index(workspace.display.look), names)
+    workspace.display.look = LOOKS[chosen]
+    imgui.set_item_tooltip("look of scenes without light; auto: plain, and studio as rendered")
+
+
+def _draw_modes(workspace: Workspace) -> None:
+    """Lay out what the view shows of surfaces."""
+    width = imgui.get_font_size() * 7
+    _beside("", width)
+    imgui.set_next_item_width(width)
+    _, chosen = imgui.combo("##mode", MODES.index(workspace.display.mode), list(MODES))
+    workspace.display.mode = MODES[chosen]
+    _beside("Wireframe", boxes=1)
+    _, workspace.display.wireframe = imgui.checkbox("Wireframe", workspace.display.wireframe)
 
 
 def _beside(label: str, width: float = 0.0, *, boxes: int = 0) -> None:

@@ -15,10 +15,11 @@ from typing import Any
 import numpy as np
 
 from ....base import linalg
-from ....choices import Mode
+from ....choices import LookName, Mode
 from ....errors import Engine3DError
 from ....io.loaders import load_mesh, load_texture
 from ....model.materials.material import Material
+from ....model.scene.cameras import Camera, PerspectiveCamera
 from ....model.scene.nodes import Node
 from ....model.scene.scene import Scene
 from ....stage.views.orbit import OrbitController
@@ -84,6 +85,32 @@ class Panels:
     pictures_to_focus: int = 0
 
 
+@dataclass
+class Display:
+    """How the scene is drawn.
+
+    Attributes
+    ----------
+    mode : Mode
+    wireframe : bool
+    look : {"studio", "plain"} or None
+        The look of a scene without light of its own. None is ``"studio"`` as rendered; else it is
+        ``"plain"``, which costs nothing when a node is dragged.
+    as_rendered : bool
+        Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
+    """
+
+    mode: Mode = "lit"
+    wireframe: bool = False
+    look: LookName | None = None
+    as_rendered: bool = False
+
+    @property
+    def worn_look(self) -> LookName:
+        """The look that the view has."""
+        return self.look or ("studio" if self.as_rendered else "plain")
+
+
 class Workspace:
     """An edited document with its display state.
 
@@ -93,8 +120,7 @@ class Workspace:
     hierarchy : Hierarchy
     view : Viewpoint
     orbit : OrbitController
-    mode : Mode
-    wireframe : bool
+    display : Display
     tools : Tools
     panels : Panels
     plays : bool
@@ -116,8 +142,7 @@ class Workspace:
     """
 
     def __init__(self) -> None:
-        self.mode: Mode = "lit"
-        self.wireframe = False
+        self.display = Display()
         self.tools = Tools()
         self.panels = Panels()
         self.plays = False
@@ -301,6 +326,13 @@ class Workspace:
         """Return a key shared by all commands of one mouse drag."""
         self._drags += 1
         return self._drags
+
+    def camera(self) -> tuple[Camera, np.ndarray]:
+        """Return the camera of the view and its pose, for `engine3d.render`."""
+        camera = self.view.camera(self.bounds)
+        if isinstance(camera, PerspectiveCamera):
+            camera.reversed_depth = True
+        return camera, self.view.pose()
 
     @property
     def bounds(self) -> Sphere:

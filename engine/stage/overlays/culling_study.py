@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..model.scene.cameras import Camera
-from ..model.scene.scene import Scene
-from .overlays.debug_lines import Lines, box_lines, frustum_lines, tree_lines
+from ...model.scene.cameras import Camera
+from ...model.scene.scene import Scene
+from .debug_lines import Lines, box_lines, frustum_lines, tree_lines
 
 
 class CullingStudy:

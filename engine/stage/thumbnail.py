@@ -23,7 +23,8 @@ from ..model.scene.instances import InstancedMesh
 from ..model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ..model.scene.scene import Scene
 from ..model.scene.shown import shown_object
-from .renderer import Renderer
+from ..rendering.renderer import Renderer
+from .render import render
 
 SIZE = (400, 300)
 SIDE = 256  # of pictures of materials, and the most of those of textures and environments
@@ -74,14 +75,13 @@ def _ball(material: Material) -> bytes:
 
 
 def _view(thing: Scene | Mesh) -> bytes | None:
-    scene = Scene(background=None) if isinstance(thing, Mesh) else thing
-    if isinstance(thing, Mesh):
-        scene.add(thing)
-    shown = [shown_object(node) for node in scene.nodes if node.shown]
+    """Draw a scene or a mesh as `engine3d.render` does."""
+    shown: list[object] = [thing]
+    if isinstance(thing, Scene):
+        shown = [shown_object(node) for node in thing.nodes if node.shown]
     if not 0 < sum(map(_parts, shown)) <= MOST_PARTS:
         return None
-    with Renderer(*SIZE, samples=4, antialiasing="msaa") as renderer:
-        return renderer.render(scene, cull="auto").encode()
+    return render(thing, size=SIZE).encode()
 
 
 def _parts(shown: object) -> int:

@@ -37,8 +37,7 @@ class Peer:
         self.frames = 0
         self.camera = e3d.Camera(np.asarray(scene.proj, np.float64))
         self.renderer = e3d.Renderer(
-            scene.width,
-            scene.height,
+            (scene.width, scene.height),
             look="plain",
             color_space="linear",
             samples=scene.samples,

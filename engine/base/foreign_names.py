@@ -17,6 +17,7 @@ _PLACED = "its place is its node's: scene.add({thing}, {how})"
 _LIGHT = _PLACED.format(thing="light", how="translation=(x, y, z)")
 _CAMERA = _PLACED.format(thing="camera", how="pose=engine3d.look_at(eye, target)")
 _PLACES = ("position", "translation", "location", "pose", "rotation", "euler", "eye", "target")
+_SIZE = "size=(width, height)"
 _MATERIALS = "mesh.materials[0].{}"
 _LIGHT_NODES = "[node for node in scene.nodes if isinstance(node.object, engine3d.PointLight)]"
 
@@ -235,7 +236,7 @@ _NAMES: dict[str, dict[str, str]] = {
         "png": "encode('png')",
         "write": "save",
         "show": "engine3d.show(frame)",
-        "shape": "height and width",
+        "shape": "size",
         "segmentation": "object_id",
     },
     "Scene.add": {
@@ -256,18 +257,17 @@ _NAMES: dict[str, dict[str, str]] = {
     "icosphere": {"segments": "subdivisions, or uv_sphere", "detail": "subdivisions"},
     "cylinder": {"sections": "segments", "resolution": "segments", "depth": "height"},
     "torus": {"radius": "major_radius", "tube": "minor_radius"},
-    "Window": {"size": "width and height", "fps": "max_fps", "caption": "title"},
+    "Window": {"resolution": _SIZE, "fps": "max_fps", "caption": "title"},
     "Renderer": {
-        "size": "width and height",
-        "viewport_width": "width",
-        "viewport_height": "height",
+        "resolution": _SIZE,
+        "viewport_width": _SIZE,
+        "viewport_height": _SIZE,
         "msaa": "antialiasing='msaa', samples=4",
         "antialias": "antialiasing='msaa', samples=4",
         "num_threads": "threads",
     },
     "render": {
-        "width": "size=(width, height)",
-        "resolution": "size=(width, height)",
+        **dict.fromkeys(("width", "height", "resolution"), _SIZE),
         "background": "scene.background",
         "shadows": "the light's shadow=True",
         "msaa": "Renderer(antialiasing='msaa', samples=4)",

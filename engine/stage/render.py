@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..base.calls import refuse_unknown
-from ..base.image_size import check_size
 from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..rendering.frame import Frame
@@ -77,11 +76,9 @@ def render(
     >>> e3d.render(e3d.torus(), look="plain", material=e3d.Material(color=(200, 40, 40)))
     """
     refuse_unknown("render", options, (*PictureKeywords.__annotations__, *_RENDERER_KEYWORDS))
-    width, height = check_size(size)
     given: Any = options
     with Renderer(
-        width,
-        height,
+        size,
         look=look,
         material=material,
         backend=backend,

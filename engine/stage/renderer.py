@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..base.calls import hinted
 from ..base.validation import flag
 from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
@@ -64,8 +65,8 @@ class Renderer(rendering.Renderer):
 
     Parameters
     ----------
-    width, height : int
-        Pixels, 1 to 16384.
+    size : (int, int)
+        Width and height in pixels, 1 to 16384.
     look : {"studio", "plain"} or Look
         How things without light of their own are drawn: all but scenes, and nodes with their
         subtrees, that have a light, an environment or ambient light. ``"studio"`` draws them as
@@ -91,8 +92,9 @@ class Renderer(rendering.Renderer):
 
     Attributes
     ----------
+    size : (int, int)
+        Width and height; changed by `resize`.
     width, height : int
-        Changed by `resize`.
     look : Look
     material : Material or None
     backend : str
@@ -108,8 +110,7 @@ class Renderer(rendering.Renderer):
 
     def __init__(
         self,
-        width: int,
-        height: int,
+        size: tuple[int, int],
         *,
         look: LookChoice = "studio",
         material: Material | None = None,
@@ -121,8 +122,7 @@ class Renderer(rendering.Renderer):
     ) -> None:
         self._worn, self._paint = check_look(look), check_material(material)
         super().__init__(
-            width,
-            height,
+            size,
             backend=backend,
             threads=threads,
             color_space=color_space,
@@ -141,10 +141,11 @@ class Renderer(rendering.Renderer):
     def material(self) -> Material | None:
         return self._paint
 
-    def resize(self, width: int, height: int) -> None:
+    @hinted
+    def resize(self, size: tuple[int, int]) -> None:
         """Change the size of future frames."""
         with self._stage_turn.taken():
-            super().resize(width, height)
+            super().resize(size)
             self._of_thread = threading.local()
 
     def close(self) -> None:

@@ -126,7 +126,7 @@ def test_limits_are_those_of_what_draws():
     assert values.CITY_TRIANGLES == (LEAST, MOST)
     assert values.width("256") == values.MAX_WIDTH
     assert values.city_triangles("20000") == LEAST
-    with e3d.Renderer(8, 8) as renderer:
+    with e3d.Renderer((8, 8)) as renderer:
         renderer.render(e3d.Scene(), line_width=values.MAX_WIDTH, point_size=values.MAX_WIDTH)
         for name in ("line_width", "point_size"):
             with pytest.raises(e3d.InvalidArgumentError):

@@ -263,7 +263,7 @@ def test_casters_that_move_are_found_again():
     scene = floor_and_caster(white(e3d.box(1.0)))
     box = list(scene.nodes)[1]
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
-    with Renderer(64, 64) as renderer:
+    with Renderer((64, 64)) as renderer:
         frames = []
         for x in (0.0, 0.5, 0.5, 40.0):
             box.translation = (x, 6, 0)
@@ -278,7 +278,7 @@ def test_casters_whose_mesh_or_material_changes_are_found_again():
     mesh = white(e3d.box(1.0))
     scene = floor_and_caster(mesh)
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
-    with Renderer(64, 64) as renderer:
+    with Renderer((64, 64)) as renderer:
         counts = []
         for change in ("none", "mesh", "material"):
             if change == "mesh":

@@ -35,7 +35,7 @@ def picture(renderer, scene, cull, camera=None):
 
 @pytest.fixture
 def renderer():
-    with Renderer(160, 120) as renderer:
+    with Renderer((160, 120)) as renderer:
         yield renderer
 
 
@@ -182,7 +182,7 @@ def test_windows_are_the_same_on_all_backends(options):
     expected = None
     for backend in ("scalar", *(name for name in e3d.backends() if name != "scalar")):
         for culling in ("all", "none"):
-            with Renderer(150, 90, backend=backend, threads=2, **options) as one:
+            with Renderer((150, 90), backend=backend, threads=2, **options) as one:
                 frame = one.render(scene, (camera, pose), cull="auto", culling=culling)
                 expected = frame.color.copy() if expected is None else expected
                 assert (frame.color == expected).all(), (backend, culling)

@@ -189,7 +189,7 @@ def test_picking_tells_what_the_picture_shows(exact, perspective):
     scene, _ = random_scene(5)
     camera = e3d.PerspectiveCamera(znear=2) if perspective else e3d.OrthographicCamera(8.0)
     camera = camera, e3d.look_at((3, 5, 18), (0, 0, 0))
-    with Renderer(40, 30) as renderer:
+    with Renderer((40, 30)) as renderer:
         shown = renderer.render(scene, camera, outputs=(*IDS, "world_position"))
         frame = shown if exact else renderer.render(scene, camera)
     agreed = 0

@@ -121,7 +121,7 @@ class ScenePanel:
             return
         if self._renderer is None or (self._renderer.width, self._renderer.height) != size:
             self.close()
-            self._renderer = Renderer(*size)
+            self._renderer = Renderer(size)
         camera = workspace.view.camera(workspace.bounds)
         if isinstance(camera, PerspectiveCamera):
             camera.reversed_depth = True

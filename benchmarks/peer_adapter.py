@@ -175,7 +175,7 @@ def lights(scene):
         direction = tuple(-float(c) for c in scene.light_dir)
         light = e3d.DirectionalLight(direction=direction, color=(strength,) * 3)
         if scene.mode == "shadow":
-            light.shadow, light.shadow_map_size = True, int(scene.shadow.size)
+            light.shadow, light.shadow_map_size = "map", int(scene.shadow.size)
             light.shadow_cascades = 1  # one map, as the description has it
         yield light, None
 

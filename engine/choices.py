@@ -96,7 +96,7 @@ LightSetup = Literal["studio", "headlight", "sun", "two colours"]
 #: What models are drawn in: names of looks, and the words for their backgrounds.
 LookName = Literal["studio", "plain"]
 Backdrop = Literal["auto", "dark", "light", "scene"]
-LightShadow = Literal[False, True, "exact"]
+LightShadow = Literal["none", "map", "exact"]
 ShadowTaps = Literal[1, 3, 5]
 AlphaMode = Literal["opaque", "mask", "blend"]
 BuiltInEnvironment = Literal["studio", "sky", "hall"]

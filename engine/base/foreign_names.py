@@ -269,7 +269,7 @@ _NAMES: dict[str, dict[str, str]] = {
     "render": {
         **dict.fromkeys(("width", "height", "resolution"), _SIZE),
         "background": "scene.background",
-        "shadows": "the light's shadow=True",
+        "shadows": "the light's shadow='map'",
         "msaa": "Renderer(antialiasing='msaa', samples=4)",
         "antialias": "antialiasing='msaa', samples=4",
         "tonemapping": "tone_mapping",

@@ -192,7 +192,7 @@ def features():
     return found
 
 
-SHADOWS = ({}, {"shadow": True, "shadow_map_size": 64}, {"shadow": "exact"})
+SHADOWS = ({}, {"shadow": "map", "shadow_map_size": 64}, {"shadow": "exact"})
 CAMERA = e3d.PerspectiveCamera(1.0, zfar=50), e3d.look_at((1, 1.2, 3.5), (0, 0, 0))
 
 

@@ -81,7 +81,7 @@ def test_maps_of_shadows_are_counted(case, monkeypatch):
     r = random.Random(case)
     kinds = [r.choice(list(LIGHTS)) for _ in range(r.randint(1, 4))]
     sizes = [r.choice((32, 64, 100, 256)) for _ in kinds]
-    lights = [LIGHTS[k](shadow=True, shadow_map_size=s) for k, s in zip(kinds, sizes, strict=True)]
+    lights = [LIGHTS[k](shadow="map", shadow_map_size=s) for k, s in zip(kinds, sizes, strict=True)]
     with Renderer((16, 16)) as renderer:
         frame = renderer.render(scene_of(lights))
         maps = maps_of(renderer).values()
@@ -99,7 +99,7 @@ def test_maps_of_shadows_are_counted(case, monkeypatch):
 
 def test_a_few_bytes_of_a_scene_file_take_no_gigabytes(tmp_path):
     path = tmp_path / "lamps.e3d.json"
-    scene_of([e3d.PointLight(shadow=True, shadow_map_size=8192)] * 4).save(path)
+    scene_of([e3d.PointLight(shadow="map", shadow_map_size=8192)] * 4).save(path)
     scene = e3d.load_scene(path)
     tracemalloc.start()
     try:
@@ -167,7 +167,7 @@ def test_what_goes_by_the_picture_alone_always_fits():
 
 def test_the_limit_is_what_the_program_says(monkeypatch):
     """Once more after a refusal, and again where it is lowered between frames."""
-    scene = scene_of([e3d.SpotLight(shadow=True, shadow_map_size=512)])
+    scene = scene_of([e3d.SpotLight(shadow="map", shadow_map_size=512)])
     with Renderer((8, 8)) as renderer:
         for limit, fits in ((1 << 20, False), (1 << 21, True), (1 << 20, False)):
             allow(monkeypatch, limit)

@@ -8,7 +8,7 @@ import engine3d as e3d
 
 SIZE = (64, 48)
 GLOW = e3d.Material(color=(0, 0, 0), emissive=e3d.linear(1.0, 0.8, 0.4))
-SHADOWS = [True, "exact"]
+SHADOWS = ["map", "exact"]
 
 
 def glowing(material=GLOW, center=(0.0, 0.0, 0.0)):

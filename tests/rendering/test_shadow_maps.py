@@ -18,7 +18,7 @@ def stage(light=None, **light_options):
     floor = scene.add(e3d.plane((8.0, 8.0)), name="floor")
     box = scene.add(e3d.box(1.0), name="box", translation=(0.0, 2.0, 0.0))
     light = light or e3d.DirectionalLight(
-        (1, -1, 0), intensity=math.pi * math.sqrt(2) / 2, shadow=True, **light_options
+        (1, -1, 0), intensity=math.pi * math.sqrt(2) / 2, shadow="map", **light_options
     )
     lamp = scene.add(light, name="light")
     return scene, floor, box, lamp
@@ -56,7 +56,7 @@ def test_a_box_throws_its_shadow_along_the_light():
 
 def test_without_shadow_nothing_changes():
     scene, *_, lamp = stage()
-    lamp.object.shadow = False
+    lamp.object.shadow = "none"
     frame = seen_from_above(scene)
     assert grey_at(frame, 2.0, 0.0) == LIT
     assert frame.stats["shadow_maps"] == 0
@@ -131,9 +131,9 @@ def test_switches_survive_packing():
 @pytest.mark.parametrize(
     "light",
     [
-        e3d.PointLight(intensity=20.0 * math.pi, shadow=True, shadow_map_size=256),
+        e3d.PointLight(intensity=20.0 * math.pi, shadow="map", shadow_map_size=256),
         e3d.SpotLight(
-            intensity=20.0 * math.pi, shadow=True, shadow_map_size=256, outer_cone_angle=1.0
+            intensity=20.0 * math.pi, shadow="map", shadow_map_size=256, outer_cone_angle=1.0
         ),
     ],
     ids=["point", "spot"],
@@ -214,7 +214,7 @@ def test_what_a_map_does_not_show_may_move():
     for x in (-6.0, 6.0):
         boxes.append(scene.add(e3d.box(1.0), translation=(x, 0, 0)))
         light = e3d.SpotLight(
-            intensity=5 * math.pi, shadow=True, shadow_map_size=64, outer_cone_angle=0.3
+            intensity=5 * math.pi, shadow="map", shadow_map_size=64, outer_cone_angle=0.3
         )
         scene.add(light, pose=e3d.look_at((x, 5, 0), (x, 0, 0), (0, 0, 1)))
     camera = e3d.PerspectiveCamera(0.8), e3d.look_at((0, 9, 14), (0, 0, 0))
@@ -239,7 +239,7 @@ def test_kept_maps_show_what_new_ones_would(still):
 @pytest.mark.parametrize("kind", ["sun", "spot", "point"])
 def test_the_ranges_of_kept_maps_change_no_pixel(kind):
     """They are found when maps are looked up again, and for other comparisons anew."""
-    options = {"shadow": True, "shadow_map_size": 96}
+    options = {"shadow": "map", "shadow_map_size": 96}
     light = {
         "sun": e3d.DirectionalLight((1, -1, 0), shadow_cascades=2, **options),
         "spot": e3d.SpotLight(intensity=30 * math.pi, outer_cone_angle=1.2, **options),
@@ -281,7 +281,7 @@ def far_stage():
         for z in range(-30, 9, 3):
             scene.add(column, translation=(x, 1.0, z), euler=(0, 0.3 * x, 0))
     light = e3d.DirectionalLight(
-        (0.7, -1, 0.4), intensity=0.7 * math.pi, shadow=True, shadow_map_size=256
+        (0.7, -1, 0.4), intensity=0.7 * math.pi, shadow="map", shadow_map_size=256
     )
     scene.add(light)
     return scene, light
@@ -368,7 +368,7 @@ def test_a_moving_camera_makes_no_edge_swim():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"shadow": "soft"}, "shadow must be one of False, True"),
+        ({"shadow": "soft"}, "shadow must be one of .none., .map."),
         ({"shadow_map_size": 16}, r"shadow_map_size must be a whole number in 32..8192, not 16"),
         ({"shadow_map_size": 256.0}, "shadow_map_size must be a whole number"),
         ({"shadow_bias": math.nan}, "shadow_bias must be a finite number"),
@@ -393,9 +393,9 @@ def test_a_radius_that_became_too_wide_is_told_when_drawing():
 
 def test_lights_without_anything_to_shine_on():
     scene = e3d.Scene()
-    scene.add(e3d.DirectionalLight(shadow=True))
-    scene.add(e3d.PointLight(shadow=True))
-    scene.add(e3d.SpotLight(shadow=True))
+    scene.add(e3d.DirectionalLight(shadow="map"))
+    scene.add(e3d.PointLight(shadow="map"))
+    scene.add(e3d.SpotLight(shadow="map"))
     camera = e3d.PerspectiveCamera(0.8), e3d.look_at((3, 4, 6), (0, 0, 0))
     with Renderer((16, 16)) as renderer:
         assert not renderer.render(scene, camera).color[..., :3].any()

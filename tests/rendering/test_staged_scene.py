@@ -19,7 +19,7 @@ def build(staged):
     lamp = scene.add(e3d.PointLight(), translation=(2, 3, 1))
     drawn = StagedScene(scene) if staged else scene
     beside = drawn.beside if staged else scene
-    sun = beside.add(e3d.DirectionalLight((0.3, -1, -0.2), shadow=True))
+    sun = beside.add(e3d.DirectionalLight((0.3, -1, -0.2), shadow="map"))
     ground = beside.add(e3d.box(), translation=(0, -1.5, 0), scale=(6, 0.1, 6))
     drawn.background, drawn.ambient = (1, 2, 3), (0.2, 0.1, 0.3)
     return scene, drawn, {"ring": ring, "ball": ball, "lamp": lamp, "sun": sun, "ground": ground}

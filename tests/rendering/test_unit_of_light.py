@@ -47,7 +47,7 @@ def lit(**light):
 #: By the name of what shines, a function of a random generator.
 SHINING = {
     "directional": lambda rng: lit(direction=(*rng.uniform(-0.6, 0.6, 2), -1), **some(rng)),
-    "shadows": lambda rng: lit(shadow=[True, "exact"][rng.integers(2)], **some(rng)),
+    "shadows": lambda rng: lit(shadow=["map", "exact"][rng.integers(2)], **some(rng)),
     "point": lambda rng: {"light": e3d.PointLight(**some(rng))},
     "window": lambda rng: {"light": e3d.PointLight(range=5.0, falloff="window", **some(rng))},
     "gltf": lambda rng: {"light": e3d.PointLight(range=5.0, falloff="gltf", **some(rng))},

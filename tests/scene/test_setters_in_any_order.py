@@ -80,7 +80,7 @@ KINDS = (
 )
 PIXELS = lambda r, t: r.integers(0, 256, (4, 4, 4), np.uint8)  # noqa: E731
 SHADOWS = {
-    "shadow": lambda r, t: pick(r, False, True, "exact"),
+    "shadow": lambda r, t: pick(r, "none", "map", "exact"),
     "shadow_map_size": lambda r, t: pick(r, 64, 96),
     "shadow_bias": lambda r, t: pick(r, 0.0, 0.02),
     "shadow_normal_bias": lambda r, t: pick(r, 0.0, 0.02),

@@ -215,7 +215,7 @@ def test_looks_are_values():
     with pytest.raises(AttributeError):
         look.ground = True
     with pytest.raises(TypeError, match="shadow"):
-        look.replace(shadow=True)
+        look.replace(shadow="map")
     for wrong in ({"lights": "moon"}, {"light_intensity": -1}, {"background": "x"}):
         with pytest.raises(e3d.InvalidArgumentError):
             e3d.Look.studio(**wrong)

@@ -96,6 +96,7 @@ _ELSEWHERE = {
     "--height": ("--size",),
     "--fov": ("--camera-yfov",),
     "--camera-view-angle": ("--camera-yfov",),
+    "--shadows": ("--shadow",),
     "--bg": ("--background-color",),
     "--out": ("--output",),
 }

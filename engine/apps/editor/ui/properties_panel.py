@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from imgui_bundle import imgui
 
+from ....choices import LightShadow
 from ....model.environments.environment import BUILT_IN, named_environment
 from ....model.geometry.mesh import Mesh
 from ....model.materials.colors import split_alpha
@@ -38,8 +39,7 @@ _COLLIDERS = {
     "mesh": lambda mesh: MeshCollider(),
 }
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
-# Names of shadow values for lights; drag speeds of numbers.
-_SHADOWS = {False: "none", True: "map", "exact": "exact"}
+# Drag speeds of numbers.
 _LIGHT_COLORS = {"sky_color": "Sky", "ground_color": "Ground", "color": "Colour"}
 _LIGHT_NUMBERS = {
     "intensity": ("Intensity", 0.05),
@@ -318,10 +318,10 @@ class PropertiesPanel:
                 self._set([light], {"direction": direction})
 
     def _draw_shadow(self, light: Light) -> None:
-        if not imgui.begin_combo("Shadow", _SHADOWS[light.shadow]):
+        if not imgui.begin_combo("Shadow", light.shadow):
             return
-        for shadow, name in _SHADOWS.items():
-            chosen = imgui.selectable(name, shadow == light.shadow)[0]
+        for shadow in get_args(LightShadow):
+            chosen = imgui.selectable(shadow, shadow == light.shadow)[0]
             if chosen and shadow != light.shadow:
                 self._workspace.do(SetValues([light], {"shadow": shadow}))
         imgui.end_combo()

@@ -18,6 +18,15 @@ _LIGHT = _PLACED.format(thing="light", how="translation=(x, y, z)")
 _CAMERA = _PLACED.format(thing="camera", how="pose=engine3d.look_at(eye, target)")
 _PLACES = ("position", "translation", "location", "pose", "rotation", "euler", "eye", "target")
 _SIZE = "size=(width, height)"
+_HITS = {
+    "face": "face_id",
+    "triangle": "face_id",
+    "triangle_id": "face_id",
+    "index_tri": "face_id",
+    "instance": "instance_id",
+    "point": "position",
+    "location": "position",
+}
 _MATERIALS = "mesh.materials[0].{}"
 _LIGHT_NODES = "[node for node in scene.nodes if isinstance(node.object, engine3d.PointLight)]"
 
@@ -239,6 +248,8 @@ _NAMES: dict[str, dict[str, str]] = {
         "shape": "size",
         "segmentation": "object_id",
     },
+    "RayHit": _HITS,
+    "RayHits": _HITS,
     "Scene.add": {
         "position": "translation",
         "location": "translation",

@@ -235,4 +235,4 @@ def test_picking_takes_what_shows(renderer):
     scene = scene_of(inside_out(box((1, 1, 1))))
     frame = renderer.render(scene, cull="auto", outputs=("color", "depth", "face_id", "object_id"))
     hit = scene.pick(frame, 80, 60)
-    assert hit.face == frame.face_id[60, 80]
+    assert hit.face_id == frame.face_id[60, 80]

@@ -49,19 +49,15 @@ ENGINE = {
 
 #: Imports that run up: a class offers what another room does.
 FACADES = {
+    "base.notebook_pictures -> rendering.thumbnail",
     "model.environments.environment -> io.formats.radiance_pictures",
     "model.environments.environment -> io.reading.sources",
-    "model.environments.environment -> rendering.thumbnail",
     "model.geometry._polygons -> io.reading.triangulation",
     "model.geometry.mesh -> io.trimesh_conversion",
     "model.geometry.mesh -> io.writers",
-    "model.geometry.mesh -> rendering.thumbnail",
-    "model.materials.material -> rendering.thumbnail",
-    "model.materials.textures -> rendering.thumbnail",
     "model.scene._queries -> rendering.frame",
     "model.scene._queries -> rendering.picking",
     "model.scene.scene -> io.writing.scene_saving",
-    "model.scene.scene -> rendering.thumbnail",
 }
 #: Of programs, those that use another.
 ARROWS = {

@@ -21,6 +21,7 @@ from ..model.scene.staged_scene import AnyScene, StagedScene
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
+from ._turn import RendererTurn
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
 from .camera_choice import CameraChoice
@@ -35,7 +36,6 @@ from .options import (
 )
 from .passes.all_passes import Passes
 from .passes.protocol import Picture, Tools
-from .turn import RendererTurn
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

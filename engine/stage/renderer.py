@@ -30,11 +30,10 @@ from ..rendering.options import (
     checked_options,
     shows_options,
 )
-from ..rendering.turn import RendererTurn
 from .appearance import DARK
 from .kept_stages import KeptStages, Stage
 from .look import Look, LookChoice, check_look
-from .overlays.numbers import MarkKeywords, take_marks
+from .overlays.numbers import MarkKeywords, Marks, take_marks
 from .painting import check_material
 from .scenes_of_things import is_lit
 from .viewed_thing import is_file
@@ -129,7 +128,6 @@ class Renderer(rendering.Renderer):
             samples=samples,
             antialiasing=antialiasing,
         )
-        self._stage_turn = RendererTurn(self._native)
         self._drawing = {"backend": self.backend, "threads": threads, "antialiasing": antialiasing}
         self._of_thread = threading.local()  # stages are changed by drawing
 
@@ -144,16 +142,15 @@ class Renderer(rendering.Renderer):
     @hinted
     def resize(self, size: tuple[int, int]) -> None:
         """Change the size of future frames."""
-        with self._stage_turn.taken():
+        with self._turn.taken(staging=True):
             super().resize(size)
             self._of_thread = threading.local()
 
     def close(self) -> None:
         """Free the renderer's memory; frames stay valid. Drawing afterwards raises an error."""
-        with self._stage_turn.taken(closing=True):
+        with self._turn.taken(closing=True, staging=True):
             super().close()
             self._of_thread = threading.local()
-            self._stage_turn.let_go()
 
     @shows_options
     def prepare(
@@ -161,7 +158,7 @@ class Renderer(rendering.Renderer):
         scene: Any,
         *,
         options: RenderOptions | None = None,
-        **keywords: Unpack[OptionKeywords],
+        **keywords: Unpack[DrawingKeywords],
     ) -> None:
         """Do the work of a thing's first frame in advance, so that it is as fast as later ones.
 
@@ -177,14 +174,16 @@ class Renderer(rendering.Renderer):
 
         Raises
         ------
-        InvalidArgumentError, OutOfMemoryError
+        InvalidArgumentError, OutOfMemoryError, FileFormatError, FileAccessError
         """
-        if self._is_drawn_as_it_is(scene):
-            super().prepare(scene, options=options, **keywords)
+        marks, named = _take_marks(keywords)
+        if not marks.shows_any and self._is_drawn_as_it_is(scene):
+            super().prepare(scene, options=options, **named)
             return
-        chosen, given = _chosen(options, keywords)
-        stage = self._stages.stage_of(scene, (_BARE if self._is_bare(scene) else {}) | given)
-        super().prepare(stage.view_renderer.staging.scene, options=chosen)
+        with self._turn.taken(staging=True):
+            chosen, given = _chosen(options, named)
+            stage = self._stage_of(scene, given, marks)
+            super().prepare(stage.view_renderer.staging.scene, options=chosen)
 
     @shows_options
     def render(
@@ -258,22 +257,18 @@ class Renderer(rendering.Renderer):
         KeyboardInterrupt
             Ctrl-C stops a frame between its tiles.
         """
-        named: Any = dict(keywords)
-        marks = take_marks(named)
-        if flag(named.pop("edges", False), "edges"):
-            named = {"wireframe": "overlay", "line_color": DARK, **named}
+        marks, named = _take_marks(keywords)
         if not marks.shows_any and self._is_drawn_as_it_is(scene):
             return super().render(
                 scene, camera, out=out, culling_camera=culling_camera, options=options, **named
             )
-        with self._stage_turn.taken(), np.errstate(all="ignore"):
+        with self._turn.taken(staging=True), np.errstate(all="ignore"):
             chosen, given = _chosen(options, named)
-            is_bare = self._is_bare(scene) and not marks.shows_any
-            stage = self._stages.stage_of(scene, (_BARE if is_bare else {}) | given, marks)
+            stage = self._stage_of(scene, given, marks)
             viewed = stage.view_renderer.viewed
             if culling_camera is not None:
                 culling_camera = find_camera(viewed.scene, culling_camera)
-            view = self._view(stage, scene, camera, is_bare)
+            view = self._view(stage, scene, camera, self._is_bare(scene, marks))
             return stage.view_renderer.draw(
                 view, outputs=chosen.outputs, out=out, culling_camera=culling_camera
             )
@@ -295,9 +290,14 @@ class Renderer(rendering.Renderer):
             self._of_thread.kept = kept
         return kept
 
-    def _is_bare(self, thing: Any) -> bool:
+    def _stage_of(self, thing: Any, given: dict[str, Any], marks: Marks) -> Stage:
+        """Return the stage of a thing, for the options that were given."""
+        options = (_BARE if self._is_bare(thing, marks) else {}) | given
+        return self._stages.stage_of(thing, options, marks)
+
+    def _is_bare(self, thing: Any, marks: Marks) -> bool:
         """Return whether a thing is drawn as a scene would be that holds it."""
-        return self._worn == _PLAIN and not is_file(thing)
+        return self._worn == _PLAIN and not is_file(thing) and not marks.shows_any
 
     def _view(self, stage: Stage, thing: Any, camera: CameraChoice, is_bare: bool) -> AnyView:
         """Return the view of a stage: that of a camera, else the thing's first one."""
@@ -309,7 +309,16 @@ class Renderer(rendering.Renderer):
         if found is None:
             return stage.first
         view_renderer.choose_theme(stage.first)
-        return CameraView(*found, stage.first.up, (self.width, self.height))
+        return CameraView(*found, stage.first.up, self.size)
+
+
+def _take_marks(keywords: DrawingKeywords) -> tuple[Marks, Any]:
+    """Return what keywords say about numbers, and the options of the others."""
+    named: Any = dict(keywords)
+    marks = take_marks(named)
+    if flag(named.pop("edges", False), "edges"):
+        named = {"wireframe": "overlay", "line_color": DARK, **named}
+    return marks, named
 
 
 def _chosen(

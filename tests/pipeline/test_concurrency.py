@@ -138,7 +138,7 @@ def test_a_scene_that_changes_meanwhile_is_named_as_the_cause(scene, change):
     class Lens(e3d.PerspectiveCamera):
         """Fails once another thread has had its turn."""
 
-        def projection(self, width, height):
+        def projection(self, size):
             thread = threading.Thread(target=change_nodes)
             thread.start()
             thread.join()

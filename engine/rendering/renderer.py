@@ -13,7 +13,7 @@ from .._native import rasterizer as _native
 from ..base.calls import hinted
 from ..base.image_size import check_size
 from ..base.validation import Closed, choose, is_one_of
-from ..choices import Antialias, Backend, ColorSpace, Samples
+from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..model.materials.colors import COLOR_SPACES
 from ..model.scene.scene import Scene
@@ -98,7 +98,7 @@ class Renderer(Closed):
         threads: int = 0,
         color_space: ColorSpace = "srgb",
         samples: Samples = 1,
-        antialiasing: Antialias = "ssaa",
+        antialiasing: Antialiasing = "ssaa",
     ) -> None:
         self._size = check_size(size)
         self._color_space = choose(color_space, COLOR_SPACES, "color_space")
@@ -145,7 +145,7 @@ class Renderer(Closed):
         return self._samples
 
     @property
-    def antialiasing(self) -> Antialias:
+    def antialiasing(self) -> Antialiasing:
         return self._antialias
 
     @hinted
@@ -351,7 +351,7 @@ class Renderer(Closed):
         return f"<Renderer {self.width}x{self.height}, {self._backend}>"
 
 
-def _check_samples(samples: Samples, antialiasing: Antialias) -> Samples:
+def _check_samples(samples: Samples, antialiasing: Antialiasing) -> Samples:
     """Check the number of samples; on an error, name the method that supports it."""
     others = [how for how, numbers in _SAMPLES.items() if is_one_of(samples, numbers)]
     if others and antialiasing not in others:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..base.calls import refuse_unknown
-from ..choices import Antialias, Backend, ColorSpace, Samples
+from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..rendering.frame import Frame
 from ..rendering.options import RenderKeywords
@@ -43,7 +43,7 @@ def render(
     threads: int = 0,
     color_space: ColorSpace = "srgb",
     samples: Samples = 4,
-    antialiasing: Antialias = "msaa",
+    antialiasing: Antialiasing = "msaa",
     **options: Unpack[PictureKeywords],
 ) -> Frame:
     """Draw one frame of a file, a scene, a node, a mesh or points.

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..base.calls import hinted
 from ..base.validation import flag
-from ..choices import Antialias, Backend, ColorSpace, Samples
+from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
@@ -117,7 +117,7 @@ class Renderer(rendering.Renderer):
         threads: int = 0,
         color_space: ColorSpace = "srgb",
         samples: Samples = 4,
-        antialiasing: Antialias = "msaa",
+        antialiasing: Antialiasing = "msaa",
     ) -> None:
         self._worn, self._paint = check_look(look), check_material(material)
         super().__init__(

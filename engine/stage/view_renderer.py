@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 
 from ..base import linalg
-from ..choices import Antialias, Backend, Samples
+from ..choices import Antialiasing, Backend, Samples
 from ..model.scene.cameras import Camera, PerspectiveCamera
 from ..model.spatial.rays import RayHit
 from ..rendering.canvas import Canvas
@@ -60,7 +60,7 @@ class _Options(TypedDict, total=False):
 
     backend: Backend
     threads: int
-    antialiasing: Antialias
+    antialiasing: Antialiasing
 
 
 class ViewRenderer:

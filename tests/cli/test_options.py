@@ -154,7 +154,9 @@ def test_choices_are_those_of_the_display_package():
 def test_settings_hold_only_what_was_given():
     assert options.settings(parse("render", "a.obj", "-o", "a.png")).appearance == {}
     given = options.settings(
-        parse("run", "a.obj", "--edges", "--unlit", "--flat", "--line-width", "2.5", "-gxm")
+        parse(
+            "run", "a.obj", "--edges", "--unlit", "--normals", "flat", "--line-width", "2.5", "-gxm"
+        )
     )
     assert given.appearance == {
         "mode": "unlit",

@@ -97,6 +97,7 @@ _ELSEWHERE = {
     "--fov": ("--camera-yfov",),
     "--camera-view-angle": ("--camera-yfov",),
     "--shadows": ("--shadow",),
+    **dict.fromkeys(("--flat", "--facets", "--smooth"), ("--normals",)),
     "--bg": ("--background-color",),
     "--out": ("--output",),
 }

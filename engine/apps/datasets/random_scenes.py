@@ -97,6 +97,7 @@ def random_light(
     elevation : (low, high)
         Of where the light comes from, in radians above the horizon.
     intensity : (low, high)
+        In lux: a white matt surface that faces the light shows white at pi, whatever its material.
     tint : float
         By how much channels of its colour are less than 1 at most.
     shadow : {"none", "map", "exact"}

@@ -39,13 +39,8 @@ _COLLIDERS = {
     "mesh": lambda mesh: MeshCollider(),
 }
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
-# Drag speeds of numbers.
 _LIGHT_COLORS = {"sky_color": "Sky", "ground_color": "Ground", "color": "Colour"}
-_LIGHT_NUMBERS = {
-    "intensity": ("Intensity", 0.05),
-    "inner_cone_angle": ("Inner cone", 0.01),
-    "outer_cone_angle": ("Outer cone", 0.01),
-}
+_LIGHT_ANGLES = {"inner_cone_angle": "Inner cone", "outer_cone_angle": "Outer cone"}
 
 
 class PropertiesPanel:
@@ -305,9 +300,11 @@ class PropertiesPanel:
         for name, label in _LIGHT_COLORS.items():
             if hasattr(light, name):
                 self._color(light, name, label)
-        for name, (label, speed) in _LIGHT_NUMBERS.items():
+        if hasattr(light, "intensity"):  # by a hundredth of it
+            self._number(light, "intensity", "Intensity", 0.01 * max(light.intensity, 1.0), 0.0)
+        for name, label in _LIGHT_ANGLES.items():
             if hasattr(light, name):
-                self._number(light, name, label, speed, 0.0)
+                self._number(light, name, label, 0.01, 0.0)
         if hasattr(light, "shadow"):
             self._draw_shadow(light)
         if hasattr(light, "range"):

@@ -42,7 +42,7 @@ def opened(path, size):
     scene = engine3d.Scene()
     scene.add(engine3d.load_mesh(path))
     scene.add(engine3d.DirectionalLight())
-    renderer = engine3d.Renderer(*size, samples=1)
+    renderer = engine3d.Renderer(size, samples=1)
     camera = engine3d.PerspectiveCamera(0.7, znear=0.1, zfar=10)
     frame = None
     def draw(angle):

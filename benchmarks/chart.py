@@ -69,7 +69,7 @@ def _hexadecimal(color):
 
 
 def as_canvas(chart):
-    canvas = Canvas(chart.width, chart.height)
+    canvas = Canvas((chart.width, chart.height))
     for x, y, width, height, color in chart.rectangles:
         canvas.rectangle(x, y, width, height, color)
     for x0, y0, x1, y1, color in chart.lines:

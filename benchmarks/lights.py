@@ -28,7 +28,7 @@ def measure(arguments):
     world = e3d.worlds.city(arguments.triangles)
     width, height = arguments.size
     with e3d.Renderer(
-        width, height, threads=arguments.threads, look="plain", samples=1
+        (width, height), threads=arguments.threads, look="plain", samples=1
     ) as renderer:
         for count in COUNTS:
             if count > arguments.most:

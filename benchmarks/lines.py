@@ -50,7 +50,7 @@ def seconds(canvas, lines, algorithm):
 
 def measure(repeats):
     """Yield one row a length and direction: nanoseconds of each algorithm, and their ratio."""
-    canvas = Canvas(WIDTH, HEIGHT)
+    canvas = Canvas((WIDTH, HEIGHT))
     for name, direction in DIRECTIONS.items():
         for length in LENGTHS:
             lines = batch(length, direction)

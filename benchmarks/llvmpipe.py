@@ -195,7 +195,7 @@ class Peer:
         """Draw a frame and return the picture, as OpenGL has it, top row first."""
         camera, pose = self._workload.view(frame)
         flip = np.diag((1.0, -1.0, 1.0, 1.0))
-        clip_from_world = flip @ camera.projection(*self._size) @ linalg.inverse(pose)
+        clip_from_world = flip @ camera.projection(self._size) @ linalg.inverse(pose)
         first = self._geometry or self._target
         first.use()
         if self._workload.output == "color":

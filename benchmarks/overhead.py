@@ -114,7 +114,7 @@ def measure_calls(calls):
     """Yield a row for each kind of call."""
     for name, make in CALLS.items():
         draw = make()
-        with e3d.Renderer(SIDE, SIDE, threads=1, look="plain", samples=1) as renderer:
+        with e3d.Renderer((SIDE, SIDE), threads=1, look="plain", samples=1) as renderer:
             core = min(draw(renderer, k).stats["ms_total"] for k in range(20))
             best = math.inf
             for _ in range(ROUNDS):

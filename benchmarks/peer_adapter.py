@@ -37,8 +37,7 @@ class Peer:
         self.frames = 0
         self.camera = e3d.Camera(np.asarray(scene.proj, np.float64))
         self.renderer = e3d.Renderer(
-            scene.width,
-            scene.height,
+            (scene.width, scene.height),
             look="plain",
             color_space="linear",
             samples=scene.samples,
@@ -176,7 +175,7 @@ def lights(scene):
         direction = tuple(-float(c) for c in scene.light_dir)
         light = e3d.DirectionalLight(direction=direction, color=(strength,) * 3)
         if scene.mode == "shadow":
-            light.shadow, light.shadow_map_size = True, int(scene.shadow.size)
+            light.shadow, light.shadow_map_size = "map", int(scene.shadow.size)
             light.shadow_cascades = 1  # one map, as the description has it
         yield light, None
 

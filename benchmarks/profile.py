@@ -38,7 +38,11 @@ def draw(scene, arguments, frames):
     width, height = arguments.size
     results = []
     with e3d.Renderer(
-        width, height, backend=arguments.backend, threads=arguments.threads, look="plain", samples=1
+        (width, height),
+        backend=arguments.backend,
+        threads=arguments.threads,
+        look="plain",
+        samples=1,
     ) as renderer:
         frame = renderer.render(scene, cull="back")
         for _ in range(frames):

@@ -54,7 +54,7 @@ def measure(side, rounds):
 
     def look(eye, target):
         view = linalg.inverse(e3d.look_at(eye, target))
-        return linalg.multiply(camera.projection(1920, 1080), view)
+        return linalg.multiply(camera.projection((1920, 1080)), view)
 
     inside = look(middle, middle + (1, 2, 3))
     outside = look(middle - 1.6 * side, middle)
@@ -78,7 +78,7 @@ def measure(side, rounds):
     def select(view):
         return lambda number: scene.data.arrays.select(view, 1.0, False, bits)
 
-    renderer = e3d.Renderer(64, 36, look="plain", samples=1)
+    renderer = e3d.Renderer((64, 36), look="plain", samples=1)
 
     def draw(eye, batching):
         def work(number):

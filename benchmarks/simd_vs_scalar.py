@@ -79,7 +79,7 @@ def measure_frame(name, backends, arguments):
     scene = WORKLOADS[workload][1]()
     renderers = {
         backend: e3d.Renderer(
-            *arguments.size,
+            arguments.size,
             backend=backend,
             threads=arguments.threads,
             look="plain",

@@ -144,7 +144,7 @@ def measure_nodes(scene, nodes, spheres, threads, count):
     bits = np.empty((scene.data.arrays.count + 63) // 64, np.uint64)
     for name, look in {"inside": spheres.inside, "all in view": spheres.all_in_view}.items():
         camera, pose = look(0)
-        view = linalg.multiply(camera.projection(1920, 1080), linalg.inverse(pose))
+        view = linalg.multiply(camera.projection((1920, 1080)), linalg.inverse(pose))
         start = time.perf_counter()
         for _ in range(UPDATES):
             scene.data.arrays.select(view, 1.0, False, bits)
@@ -246,7 +246,7 @@ def measure(arguments):
     for part in arguments.part or PARTS:
         gc.collect()
         with e3d.Renderer(
-            width, height, threads=arguments.threads, look="plain", samples=1
+            (width, height), threads=arguments.threads, look="plain", samples=1
         ) as renderer:
             for name, row in MEASURES[part](renderer, arguments, options):
                 yield {"what": name, **row}

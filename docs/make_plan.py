@@ -68,7 +68,7 @@ def example_rows() -> list[tuple[str, ...]]:
     scene.add(e3d.box())
     scene.add(e3d.DirectionalLight())
     camera = e3d.frame_scene(scene)
-    renderer = e3d.Renderer(32, 32, look="plain", samples=1)
+    renderer = e3d.Renderer((32, 32), look="plain", samples=1)
     rows = []
     for title, options in EXAMPLES.items():
         plan = renderer.render(scene, camera, **options).stats["plan"]

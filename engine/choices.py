@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AlphaMode",
-    "Antialias",
+    "Antialiasing",
     "Backdrop",
     "Backend",
     "BuiltInEnvironment",
@@ -57,7 +57,7 @@ __all__ = [
 Backend = Literal["auto", "scalar", "portable", "sse41", "avx2", "avx512", "neon"]
 ColorSpace = Literal["srgb", "linear"]
 Samples = Literal[1, 2, 4, 8, 16]
-Antialias = Literal["ssaa", "msaa"]
+Antialiasing = Literal["ssaa", "msaa"]
 
 Mode = Literal["lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw"]
 #: Further modes of the viewer and the command line: outputs as pictures. rendering/frame.py has the
@@ -96,7 +96,7 @@ LightSetup = Literal["studio", "headlight", "sun", "two colours"]
 #: What models are drawn in: names of looks, and the words for their backgrounds.
 LookName = Literal["studio", "plain"]
 Backdrop = Literal["auto", "dark", "light", "scene"]
-LightShadow = Literal[False, True, "exact"]
+LightShadow = Literal["none", "map", "exact"]
 ShadowTaps = Literal[1, 3, 5]
 AlphaMode = Literal["opaque", "mask", "blend"]
 BuiltInEnvironment = Literal["studio", "sky", "hall"]

@@ -115,7 +115,7 @@ WAYS = {
 
 def engine_line(width, height, *ends):
     """The pixels of the engine's Bresenham line, as a set."""
-    canvas = e3d.Canvas(width, height)
+    canvas = e3d.Canvas((width, height))
     canvas.line(*ends, (255, 255, 255))
     rows, columns = np.nonzero(canvas.pixels[:, :, 0])
     return set(zip(columns.tolist(), rows.tolist(), strict=True))
@@ -181,7 +181,7 @@ def measure():
         program = compile_c(folder, "-O2")
         for line in subprocess.check_output([program], text=True).splitlines():
             print(f"C       {line}")
-    canvas = e3d.Canvas(200, 200)
+    canvas = e3d.Canvas((200, 200))
     many = np.array(random_lines(100_000), np.float64)
     pixels = np.abs(many[:, :2] - many[:, 2:]).max(axis=1).sum() + len(many)
     for algorithm in ("dda", "bresenham"):

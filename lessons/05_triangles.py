@@ -75,7 +75,7 @@ def edge_functions(a, b, c):
 
 
 def engine_triangle(width, height, corners, algorithm):
-    canvas = e3d.Canvas(width, height)
+    canvas = e3d.Canvas((width, height))
     canvas.triangle(*corners, (255, 255, 255), algorithm=algorithm)
     rows, columns = np.nonzero(canvas.pixels[:, :, 0])
     return set(zip(columns.tolist(), rows.tolist(), strict=True))
@@ -96,7 +96,7 @@ def compare(count=500, side=40):
 
 def measure():
     """Time both ways over triangle sizes, in Python and in the engine's canvas."""
-    canvas = e3d.Canvas(512, 512)
+    canvas = e3d.Canvas((512, 512))
     print("nanoseconds per pixel     Python: sweep    edges     C: sweep    edges")
     for side in (2, 4, 8, 16, 32, 64, 128, 256):
         corners = ((0.3, 0.2), (0.8 * side, 0.4 * side), (0.2 * side, side + 0.1))

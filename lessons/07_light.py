@@ -70,7 +70,7 @@ def visible_faces(faces, width, height):
     clip[:, 1] = 1 - 2 * corners[:, 1] / height
     clip[:, 2] = -corners[:, 2] / (2 * max(width, height))
     order = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
-    seen = e3d.rasterization.rasterize(clip.astype(np.float32), order, width, height, cull="none")
+    seen = e3d.rasterization.rasterize(clip.astype(np.float32), order, (width, height), cull="none")
     return seen.face_id
 
 

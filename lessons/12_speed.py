@@ -61,7 +61,7 @@ def measure():
     first = None
     for backend in e3d.backends():
         with e3d.Renderer(
-            640, 360, backend=backend, threads=1, look="plain", samples=1
+            (640, 360), backend=backend, threads=1, look="plain", samples=1
         ) as renderer:
             rate, frame = frames_per_second(renderer, view)
         first = frame.color.copy() if first is None else first

@@ -128,7 +128,7 @@ def measure():
     for place, color in scene[1]:
         light = e3d.PointLight(color=color, range=RANGE, falloff="window")
         world.add(light, translation=place)
-    with e3d.Renderer(1280, 720, threads=1) as renderer:
+    with e3d.Renderer((1280, 720), threads=1) as renderer:
         frames = {}
         for name in ("forward", "deferred"):
             frames[name] = renderer.render(world, shading=name)

@@ -76,7 +76,7 @@ def part(mesh, faces):
 def clip_from_world(width, height, camera=CAMERA, eye=EYE):
     pose = e3d.look_at(eye, TARGET)
     view = e3d.linalg.inverse(pose)
-    return e3d.linalg.multiply(camera.projection(width, height), view)
+    return e3d.linalg.multiply(camera.projection((width, height)), view)
 
 
 def planes_of(matrix):

@@ -61,7 +61,7 @@ def occlusion(width, height):
     coarse = depth.reshape(height // 8, 8, width // 8, 8).max(axis=(1, 3))
     yield "the wall alone, drawn first", frame.color[:, :, :3]
 
-    matrix = e3d.linalg.multiply(camera.projection(width, height), e3d.linalg.inverse(pose))
+    matrix = e3d.linalg.multiply(camera.projection((width, height)), e3d.linalg.inverse(pose))
     kept = 0
     for node, place in zip(nodes, boxes(), strict=True):
         node.visible = not occluded(place - 0.2, place + 0.2, matrix, coarse, width, height)
@@ -167,7 +167,7 @@ def measure():
         (scenes[0], "batch", True),
         (scenes[1], "instances", True),
     ):
-        with e3d.Renderer(640, 480, threads=1, look="plain", samples=1) as renderer:
+        with e3d.Renderer((640, 480), threads=1, look="plain", samples=1) as renderer:
             renderer.render(scene, camera, batching=batched)
             start = time.perf_counter()
             for _ in range(10):

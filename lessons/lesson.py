@@ -44,7 +44,7 @@ def magnify(picture, times):
 
 def text(lines, width, height, scale=1):
     """Return a picture of lines of text."""
-    canvas = e3d.Canvas(width, height)
+    canvas = e3d.Canvas((width, height))
     canvas.clear(PAPER)
     for number, line in enumerate(lines):
         canvas.text(MARGIN, MARGIN + number * LINE_HEIGHT * scale, line, INK, scale=scale)

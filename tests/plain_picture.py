@@ -15,8 +15,8 @@ def render(scene, camera=None, **options):
 class Renderer(e3d.Renderer):
     """`engine3d.Renderer` with these defaults."""
 
-    def __init__(self, width, height, **options):
-        super().__init__(width, height, **{**PLAIN, **options})
+    def __init__(self, size, **options):
+        super().__init__(size, **{**PLAIN, **options})
 
     def render(self, scene, camera=None, **options):
         if "options" not in options:

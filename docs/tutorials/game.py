@@ -81,8 +81,8 @@ def draw(game, renderer):
 def main():
     game = Game()
     with (
-        e3d.Window(2 * SIZE[0], 2 * SIZE[1], "Coins") as window,
-        e3d.Renderer(*SIZE, samples=4, antialiasing="msaa") as renderer,
+        e3d.Window((2 * SIZE[0], 2 * SIZE[1]), "Coins") as window,
+        e3d.Renderer(SIZE, samples=4, antialiasing="msaa") as renderer,
     ):
         for event in window:
             match event:

@@ -42,8 +42,8 @@ def hinted(function: Function, owner: type | None = None) -> Function:
         try:
             return function(*args, **kwargs)
         except TypeError as error:
-            if kwargs and _is_of_the_call(error):
-                _raise_hint(function, owner, kwargs)
+            if _is_of_the_call(error):
+                _raise_hint(function, owner, args, kwargs)
             raise
 
     return cast(Function, call)
@@ -60,12 +60,13 @@ def checks_types(function: Function) -> Function:
         for name, value in (*zip(found, args, strict=False), *kwargs.items()):
             kind = found.get(name)
             if kind is not None and not kind[0](value):
+                _refuse_two_sides(function, args, kwargs)
                 raise InvalidArgumentError(f"{name} must be {kind[1]}, not {shown(value)}")
         try:
             return function(*args, **kwargs)
         except TypeError as error:
-            if kwargs and _is_of_the_call(error):
-                _raise_hint(function, None, kwargs)
+            if _is_of_the_call(error):
+                _raise_hint(function, None, args, kwargs)
             raise
 
     return cast(Function, call)
@@ -90,11 +91,33 @@ def shows_annotations(kind: Kind) -> Kind:
 
 
 def _raise_hint(
-    function: Callable[..., Any], owner: type | None, keywords: Mapping[str, Any]
+    function: Callable[..., Any],
+    owner: type | None,
+    arguments: tuple[Any, ...],
+    keywords: Mapping[str, Any],
 ) -> None:
-    """Raise a TypeError for an unknown keyword of a function, if there is one."""
-    name = function.__qualname__.removesuffix(".__init__")
-    refuse_unknown(owner or name, keywords, inspect.signature(function).parameters)
+    """Raise a TypeError that tells what is wrong with a call, if there is more to tell."""
+    _refuse_two_sides(function, arguments, keywords)
+    refuse_unknown(owner or _name(function), keywords, inspect.signature(function).parameters)
+
+
+def _name(function: Callable[..., Any]) -> str:
+    return function.__qualname__.removesuffix(".__init__")
+
+
+def _refuse_two_sides(
+    function: Callable[..., Any], arguments: tuple[Any, ...], keywords: Mapping[str, Any]
+) -> None:
+    """Raise a TypeError where a size was given as a width and a height."""
+    parameters = inspect.signature(function).parameters
+    if "size" not in parameters or not parameters["size"].annotation.startswith(_SIZE):
+        return
+    place = list(parameters).index("size")
+    numbered = [isinstance(each, numbers.Real) for each in arguments[place : place + 2]]
+    if numbered == [True, True] or "width" in keywords or "height" in keywords:
+        raise TypeError(
+            f"{_name(function)}() takes size=(width, height), not a width and a height"
+        ) from None
 
 
 def refuse_unknown(owner: type | str, keywords: Iterable[str], known: Iterable[str]) -> None:
@@ -131,11 +154,11 @@ def _kind(node: ast.expr, function: Callable[..., Any]) -> _Kind | None:
         return _either([_kind(part, function) for part in (node.left, node.right)])
     if isinstance(node, ast.Constant):
         return _NOTHING if node.value is None else None
-    of = ""
+    of, whole = "", node
     if isinstance(node, ast.Subscript):
         of, node = ast.unparse(node.slice), node.value
     name = ast.unparse(node)
-    if name in _UNCHECKED:
+    if name in _UNCHECKED or ast.unparse(whole) == _SIZE:  # `check_size` says more
         return None
     if name == "Literal":
         return _kind_of(Literal[ast.literal_eval(of)], name)
@@ -206,6 +229,7 @@ def _is_file(value: Any) -> bool:
     return hasattr(value, "read") or hasattr(value, "write")
 
 
+_SIZE = "tuple[int, int]"  # the annotation of sizes of pictures
 _UNCHECKED = ("Any", "ArrayLike", "Backend")  # for the last, a BackendError says more
 _MODULES = ("datasets", "batch", "loaders", "choices")  # annotations use their names
 _NOTHING: _Kind = (lambda value: value is None, "None")

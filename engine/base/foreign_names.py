@@ -17,6 +17,16 @@ _PLACED = "its place is its node's: scene.add({thing}, {how})"
 _LIGHT = _PLACED.format(thing="light", how="translation=(x, y, z)")
 _CAMERA = _PLACED.format(thing="camera", how="pose=engine3d.look_at(eye, target)")
 _PLACES = ("position", "translation", "location", "pose", "rotation", "euler", "eye", "target")
+_SIZE = "size=(width, height)"
+_HITS = {
+    "face": "face_id",
+    "triangle": "face_id",
+    "triangle_id": "face_id",
+    "index_tri": "face_id",
+    "instance": "instance_id",
+    "point": "position",
+    "location": "position",
+}
 _MATERIALS = "mesh.materials[0].{}"
 _LIGHT_NODES = "[node for node in scene.nodes if isinstance(node.object, engine3d.PointLight)]"
 
@@ -39,7 +49,7 @@ _NAMES: dict[str, dict[str, str]] = {
         "Trimesh": "Mesh",
         "PolyData": "Mesh",
         "BufferGeometry": "Mesh",
-        "read": "load_mesh or load_scene",
+        "read": "load, load_mesh or load_scene",
         "read_triangle_mesh": "load_mesh",
         "save": "save_mesh or save_scene",
         "export": "save_mesh or save_scene",
@@ -90,12 +100,11 @@ _NAMES: dict[str, dict[str, str]] = {
         "compute_vertex_normals": "normals, which are computed where none are given",
         "extents": "bounds",
         "bounding_box": "bounds",
-        "translate": "a node's translation, or Mesh.concatenate([mesh], poses=[pose])",
-        "rotate": "a node's rotation or euler, or Mesh.concatenate([mesh], poses=[pose])",
-        "scale": "a node's scale, or Mesh.concatenate([mesh], poses=[pose])",
-        "apply_transform": "Mesh.concatenate([mesh], poses=[pose])",
-        "transform": "Mesh.concatenate([mesh], poses=[pose])",
-        "copy": "copy.copy(mesh)",
+        "translate": "a node's translation, or transformed(matrix)",
+        "rotate": "a node's rotation or euler, or transformed(matrix)",
+        "scale": "a node's scale, or transformed(matrix)",
+        "apply_transform": "transformed(matrix)",
+        "transform": "transformed(matrix)",
         "show": "engine3d.show(mesh)",
         "plot": "engine3d.show(mesh)",
     },
@@ -235,9 +244,11 @@ _NAMES: dict[str, dict[str, str]] = {
         "png": "encode('png')",
         "write": "save",
         "show": "engine3d.show(frame)",
-        "shape": "height and width",
+        "shape": "size",
         "segmentation": "object_id",
     },
+    "RayHit": _HITS,
+    "RayHits": _HITS,
     "Scene.add": {
         "position": "translation",
         "location": "translation",
@@ -256,25 +267,23 @@ _NAMES: dict[str, dict[str, str]] = {
     "icosphere": {"segments": "subdivisions, or uv_sphere", "detail": "subdivisions"},
     "cylinder": {"sections": "segments", "resolution": "segments", "depth": "height"},
     "torus": {"radius": "major_radius", "tube": "minor_radius"},
-    "Window": {"size": "width and height", "fps": "max_fps", "caption": "title"},
+    "Window": {"resolution": _SIZE, "fps": "max_fps", "caption": "title"},
     "Renderer": {
-        "size": "width and height",
-        "viewport_width": "width",
-        "viewport_height": "height",
+        "resolution": _SIZE,
+        "viewport_width": _SIZE,
+        "viewport_height": _SIZE,
         "msaa": "antialiasing='msaa', samples=4",
         "antialias": "antialiasing='msaa', samples=4",
         "num_threads": "threads",
     },
     "render": {
-        "width": "size=(width, height)",
-        "resolution": "size=(width, height)",
+        **dict.fromkeys(("width", "height", "resolution"), _SIZE),
         "background": "scene.background",
-        "shadows": "the light's shadow=True",
-        "msaa": "Renderer(antialiasing='msaa', samples=4)",
+        "shadows": "the light's shadow='map'",
+        "msaa": "antialiasing='msaa', samples=4",
         "antialias": "antialiasing='msaa', samples=4",
         "tonemapping": "tone_mapping",
         "ssao": "ambient_occlusion",
-        "look": "tone_mapping, ambient_occlusion and other options",
         "flags": "mode, wireframe and other options",
     },
 }

@@ -101,7 +101,7 @@ class FrameMemory:
         """
         size = faces * (_CASTER + lights * _CASTER_OF_LIGHT)
         what = f"exact shadows ({lights} lights, {faces} faces that may hide them)"
-        exact = Use(size, what, "shadow=True, or fewer nodes that cast shadows")
+        exact = Use(size, what, "shadow='map', or fewer nodes that cast shadows")
         self._check([*self._of_options, *self._of_maps, exact])
 
     def _uses_of(self, width: int, height: int) -> list[Use]:

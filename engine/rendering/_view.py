@@ -43,7 +43,7 @@ class View:
         if previous is not None and previous._lens == self._lens:
             projection = previous.projection  # only the pose changed
         else:
-            projection = np.ascontiguousarray(camera.projection(width, height), np.float64)
+            projection = np.ascontiguousarray(camera.projection((width, height)), np.float64)
         self.projection: NDArray[np.float64] = projection
         self.camera = camera
         self._pose_bytes = pose.tobytes()

@@ -18,6 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native import canvas as native
 from .._native.images import encode_png
+from ..base.calls import hints_keywords
+from ..base.image_size import sides_of
 from ..base.numbers import as_array, floats, real, shown
 from ..base.validation import choose, flag
 from ..choices import ColorLike
@@ -39,13 +41,14 @@ _FONT_CODES |= {ord(letter): code for code, letter in enumerate("àâçèéêë�
 _REPLACEMENT_CODE = 127
 
 
+@hints_keywords
 class Canvas:
     """A 2-D drawing surface.
 
     Parameters
     ----------
-    width, height : int
-        Size in pixels of a new canvas, which starts opaque black.
+    size : (int, int)
+        Width and height in pixels of a new canvas, which starts opaque black.
     pixels : ndarray of uint8, shape (H, W, 4)
         Instead of a size: the RGBA pixels to draw on, top row first, a writable array whose pixels
         are contiguous within each row. It is not copied. A slice of a larger image makes a canvas
@@ -58,19 +61,22 @@ class Canvas:
 
     Examples
     --------
-    >>> canvas = Canvas(320, 200)
+    >>> canvas = Canvas((320, 200))
     >>> canvas.line(10, 10, 300, 180, (255, 200, 0))
     >>> canvas.text(10, 10, "engine3d", (255, 255, 255), background=(0, 0, 0, 160))
     """
 
     @overload
-    def __init__(self, width: int, height: int, /) -> None: ...
+    def __init__(self, size: tuple[int, int]) -> None: ...
 
     @overload
     def __init__(self, pixels: NDArray[np.uint8], /) -> None: ...
 
-    def __init__(self, *args: Any) -> None:
-        self._pixels = _new_pixels(*args) if len(args) == 2 else _given_pixels(*args)
+    def __init__(self, size: tuple[int, int] | NDArray[np.uint8]) -> None:
+        if isinstance(size, np.ndarray) and size.ndim > 1:
+            self._pixels: NDArray[np.uint8] = size
+        else:
+            self._pixels = _new_pixels(size)
         try:
             self._surface = native.Surface(self._pixels)
         except ValueError as error:
@@ -82,6 +88,11 @@ class Canvas:
     def pixels(self) -> NDArray[np.uint8]:
         """The (H, W, 4) uint8 RGBA pixels, top row first: the array itself, not a copy."""
         return self._pixels
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self.width, self.height
 
     @property
     def width(self) -> int:
@@ -98,7 +109,7 @@ class Canvas:
         return type(self), (self._pixels,)
 
     def __repr__(self) -> str:
-        return f"Canvas({self.width}, {self.height})"
+        return f"Canvas(({self.width}, {self.height}))"
 
     def image(self) -> Image.Image:
         """Return a copy of the pixels as a Pillow image in mode RGBA."""
@@ -362,7 +373,8 @@ def text_size(string: str, scale: int = 1) -> tuple[int, int]:
     return native.text_size(_codes(string), _scale(scale))
 
 
-def _new_pixels(width: int, height: int) -> NDArray[np.uint8]:
+def _new_pixels(size: object) -> NDArray[np.uint8]:
+    width, height = sides_of(size)
     for side in (width, height):
         if not isinstance(side, int | np.integer) or not 0 <= side <= native.MAX_SIDE:
             raise InvalidArgumentError(
@@ -371,12 +383,6 @@ def _new_pixels(width: int, height: int) -> NDArray[np.uint8]:
     pixels = np.zeros((height, width, 4), np.uint8)
     pixels[..., 3] = 255
     return pixels
-
-
-def _given_pixels(*args: Any) -> NDArray[np.uint8]:
-    if len(args) != 1 or not isinstance(args[0], np.ndarray):
-        raise InvalidArgumentError("a Canvas takes a width and a height, or an array of pixels")
-    return args[0]
 
 
 def _color_bytes(color: Any, what: str = "color") -> bytes:

@@ -16,9 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native import rasterizer as _native
 from .._native.images import encode_png
-from ..base.calls import checks_types
+from ..base.calls import checks_types, hints_keywords
 from ..base.files.atomic_write import atomic_write, checked_path
 from ..base.foreign_names import refuses_foreign_names
+from ..base.image_size import sides_of
 from ..base.validation import choose
 from ..choices import FrameCull, ImageFormat, OutputMode
 from ..errors import InvalidArgumentError, MissingOutputError
@@ -80,6 +81,7 @@ class _Output(Generic[Scalar]):
             ) from None
 
 
+@hints_keywords
 @refuses_foreign_names
 class Frame:
     """The result of rendering: the requested outputs as arrays.
@@ -89,6 +91,8 @@ class Frame:
 
     Attributes
     ----------
+    size : (int, int)
+        Width and height in pixels.
     width, height : int
     outputs : tuple of str
         Names of the outputs it holds.
@@ -158,15 +162,18 @@ class Frame:
         "behind it, as in the picture."
     )
 
-    def __init__(self, width: int, height: int, outputs: dict[str, NDArray[Any]]) -> None:
-        self.width = width
-        self.height = height
+    def __init__(self, size: tuple[int, int], outputs: dict[str, NDArray[Any]]) -> None:
+        self.width, self.height = sides_of(size)
         self._stats: dict[str, Any] = {}
         # Until they are read: the number of nodes, and the core's counters.
         self._drawn: tuple[int, _native.NativeStats] | None = None
         # For picking: the view, and which faces were culled.
         self._seen: tuple[View, FrameCull] | None = None
         self._outputs = outputs
+
+    @property
+    def size(self) -> tuple[int, int]:
+        return self.width, self.height
 
     @property
     def outputs(self) -> tuple[Output, ...]:

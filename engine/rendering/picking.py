@@ -52,9 +52,9 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
         return (
             None
             if hit is None
-            else _from(eye, hit._replace(node=node, instance=instance, face=face))
+            else _from(eye, hit._replace(node=node, instance_id=instance, face_id=face))
         )
-    if hit is None or (hit.node, hit.instance, hit.face) != (node, instance, face):
+    if hit is None or (hit.node, hit.instance_id, hit.face_id) != (node, instance, face):
         if not _has_face(node.object, instance, face):
             return None
         hit = _hit_of_face(node, instance, face, near, direction)
@@ -97,7 +97,7 @@ def _drawn_hit(scene: Any, origin: Any, direction: Any, length: float, cull: str
 
 def _is_drawn(hit: RayHit, direction: np.ndarray, cull: str) -> bool:
     mesh = _mesh_of(hit.node)
-    if cull == "none" or mesh.materials[mesh.material_ids[hit.face]].two_sided:
+    if cull == "none" or mesh.materials[mesh.material_ids[hit.face_id]].two_sided:
         return True
     return (linalg.dot(hit.normal, direction) < 0.0) == (cull == "back")
 

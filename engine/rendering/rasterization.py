@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native import rasterizer as _native
-from ..base.calls import shows_annotations
-from ..base.image_size import check_side
+from ..base.calls import hinted, shows_annotations
+from ..base.image_size import check_size
 from ..base.numbers import as_array, floats
 from ..base.validation import choose
 from ..choices import Backend, Cull
@@ -40,11 +40,11 @@ class RasterizeResult(NamedTuple):
     barycentric: NDArray[np.float32]
 
 
+@hinted
 def rasterize(
     clip: ArrayLike,
     faces: ArrayLike,
-    width: int,
-    height: int,
+    size: tuple[int, int],
     *,
     cull: Cull = "none",
     backend: Backend = "auto",
@@ -59,8 +59,8 @@ def rasterize(
         float32. Triangles with a non-finite vertex are dropped.
     faces : (F, 3) int
         Rows of ``clip``; counter-clockwise on the screen is the front.
-    width, height : int
-        Pixels, 1 to 16384.
+    size : (int, int)
+        Width and height in pixels, 1 to 16384.
     cull : {"none", "back", "front"}
     backend, threads
         As for `Renderer`.
@@ -73,7 +73,7 @@ def rasterize(
     ------
     InvalidArgumentError, BackendError, OutOfMemoryError
     """
-    width, height = check_side(width, "width"), check_side(height, "height")
+    width, height = check_size(size)
     positions = _float_rows(clip)
     indices = _index_rows(faces, len(positions))
     culling = _native.CULLS[choose(cull, _native.CULLS, "cull")]

@@ -10,9 +10,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 from .._native import rasterizer as _native
-from ..base.image_size import check_side
+from ..base.calls import hinted
+from ..base.image_size import check_size
 from ..base.validation import Closed, choose, is_one_of
-from ..choices import Antialias, Backend, ColorSpace, Samples
+from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..model.materials.colors import COLOR_SPACES
 from ..model.scene.scene import Scene
@@ -20,6 +21,7 @@ from ..model.scene.staged_scene import AnyScene, StagedScene
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
+from ._turn import RendererTurn
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
 from .camera_choice import CameraChoice
@@ -34,7 +36,6 @@ from .options import (
 )
 from .passes.all_passes import Passes
 from .passes.protocol import Picture, Tools
-from .turn import RendererTurn
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -54,8 +55,8 @@ class Renderer(Closed):
 
     Parameters
     ----------
-    width, height : int
-        Pixels, 1 to 16384.
+    size : (int, int)
+        Width and height in pixels, 1 to 16384.
     backend : str
         One of `engine3d.backends`, or ``"auto"``: the environment variable ``ENGINE3D_BACKEND`` if
         set, else the fastest.
@@ -75,8 +76,9 @@ class Renderer(Closed):
 
     Attributes
     ----------
+    size : (int, int)
+        Width and height; changed by `resize`.
     width, height : int
-        Changed by `resize`.
     backend : str
         The backend that draws.
     color_space : str
@@ -90,16 +92,15 @@ class Renderer(Closed):
 
     def __init__(
         self,
-        width: int,
-        height: int,
+        size: tuple[int, int],
         *,
         backend: Backend = "auto",
         threads: int = 0,
         color_space: ColorSpace = "srgb",
         samples: Samples = 1,
-        antialiasing: Antialias = "ssaa",
+        antialiasing: Antialiasing = "ssaa",
     ) -> None:
-        self._width, self._height = check_side(width, "width"), check_side(height, "height")
+        self._size = check_size(size)
         self._color_space = choose(color_space, COLOR_SPACES, "color_space")
         self._antialias = choose(antialiasing, _SAMPLES, "antialiasing")
         self._samples = _check_samples(samples, self._antialias)
@@ -120,12 +121,16 @@ class Renderer(Closed):
         self._turn = RendererTurn(self._native)
 
     @property
+    def size(self) -> tuple[int, int]:
+        return self._size
+
+    @property
     def width(self) -> int:
-        return self._width
+        return self._size[0]
 
     @property
     def height(self) -> int:
-        return self._height
+        return self._size[1]
 
     @property
     def backend(self) -> str:
@@ -140,14 +145,15 @@ class Renderer(Closed):
         return self._samples
 
     @property
-    def antialiasing(self) -> Antialias:
+    def antialiasing(self) -> Antialiasing:
         return self._antialias
 
-    def resize(self, width: int, height: int) -> None:
+    @hinted
+    def resize(self, size: tuple[int, int]) -> None:
         """Change the size of future frames."""
-        width, height = check_side(width, "width"), check_side(height, "height")
+        size = check_size(size)
         with self._turn.taken():
-            self._width, self._height = width, height
+            self._size = size
             self._forget_arrays()
 
     def close(self) -> None:
@@ -200,9 +206,8 @@ class Renderer(Closed):
         with self._turn.taken():
             self._check_drawable(scene)
             options = self._options.named(options, keywords)
-            frame_options = self._options.get(scene, options, self._height)
-            size = self._width, self._height
-            plan = self._passes.plan(options, tuple(options.outputs), size)
+            frame_options = self._options.get(scene, options, self.height)
+            plan = self._passes.plan(options, tuple(options.outputs), self._size)
             headlight = frame_options.headlight((0.0, 0.0, 1.0))
             listing, census = frame_options.listing(plan.listed), scene.data.census()
             try:
@@ -212,7 +217,7 @@ class Renderer(Closed):
                 raise
             self._pool.prepare(plan.outputs)
             axis, multiple = _SAMPLES[self._antialias][self._samples]
-            self._native.prepare(self._width * axis, self._height * axis, multiple or 1)
+            self._native.prepare(self.width * axis, self.height * axis, multiple or 1)
 
     def _check_drawable(self, scene: object) -> None:
         if not isinstance(scene, (Scene, StagedScene)):
@@ -278,10 +283,9 @@ class Renderer(Closed):
         culling_camera: CameraChoice,
     ) -> Frame:
         """Draw a frame; the caller holds the turn."""
-        size = self._width, self._height
         outputs = tuple(options.outputs if out is None else self._check_out(out).outputs)
-        plan = self._passes.plan(options, outputs, size)
-        frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
+        plan = self._passes.plan(options, outputs, self._size)
+        frame = Frame(self._size, self._pool.take(plan.outputs)) if out is None else out
         census, reads_scene = scene.data.census(), True
         try:
             picture = self._look(scene, camera, options, plan.listed, culling_camera)
@@ -307,8 +311,8 @@ class Renderer(Closed):
         culling_camera: CameraChoice,
     ) -> Picture:
         """Update the draw list, and return the picture that the passes start with."""
-        size = self._width, self._height
-        frame_options = self._options.get(scene, options, self._height)
+        size = self._size
+        frame_options = self._options.get(scene, options, self.height)
         view = self._viewpoint.look(scene, camera, *size)
         chosen = frustum_of(scene, culling_camera, *size)
         frustum = view.clip_from_world if chosen is None else chosen
@@ -332,22 +336,22 @@ class Renderer(Closed):
         picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
         if apertures is None:
             options = with_both_sides(picture.options)
-            picture.frame_options = self._options.get(picture.scene, options, self._height)
+            picture.frame_options = self._options.get(picture.scene, options, self.height)
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):
             raise InvalidArgumentError(f"out must be a Frame, not {type(out).__name__}")
-        if (out.width, out.height) != (self._width, self._height):
+        if out.size != self._size:
             raise InvalidArgumentError(
-                f"out must be {self._width}x{self._height}, not {out.width}x{out.height}"
+                f"out must be {self.width}x{self.height}, not {out.width}x{out.height}"
             )
         return out
 
     def __repr__(self) -> str:
-        return f"<Renderer {self._width}x{self._height}, {self._backend}>"
+        return f"<Renderer {self.width}x{self.height}, {self._backend}>"
 
 
-def _check_samples(samples: Samples, antialiasing: Antialias) -> Samples:
+def _check_samples(samples: Samples, antialiasing: Antialiasing) -> Samples:
     """Check the number of samples; on an error, name the method that supports it."""
     others = [how for how, numbers in _SAMPLES.items() if is_one_of(samples, numbers)]
     if others and antialiasing not in others:

@@ -65,7 +65,7 @@ class Sight:
 
     def shows(self, size: tuple[int, int], **options: Any) -> bool:
         """Return whether any pixel of a picture of a given size shows a surface."""
-        with Renderer(*size, **self.drawing) as renderer:
+        with Renderer(size, **self.drawing) as renderer:
             frame = renderer.render(
                 self.scene,
                 (self.camera, self.pose),
@@ -192,7 +192,7 @@ def _is_one_place(points: np.ndarray) -> bool:
 
 def _of_place(sight: Sight, nodes: list[Node]) -> Reason | None:
     points, (width, height) = _points(sight, nodes), sight.size
-    projection = np.array(sight.camera.projection(width, height), np.float64)
+    projection = np.array(sight.camera.projection((width, height)), np.float64)
     clip = linalg.multiply(projection, linalg.inverse(sight.pose))
     x, y, z, w = (linalg.dot(points, row[:3]) + row[3] for row in clip)
     if (z < -w).all():

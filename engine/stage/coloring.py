@@ -28,6 +28,7 @@ from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose
 from .overlays.colormaps import MISSING
 from .overlays.numbers import DIRECT, MAGNITUDE, Marks, Numbers
+from .painting import dress
 from .visibility import DRAWABLE, mesh_of
 
 if TYPE_CHECKING:
@@ -120,7 +121,7 @@ class Coloring:
             twin.tangents = None
         if self.bar is None:
             twin.colors = shown
-            _dress(twin, Material())
+            dress(twin, Material())
         else:
             self._show(twin, shown, self.bar)
         return twin
@@ -196,12 +197,12 @@ class Coloring:
             across = (0.5 + np.clip(shares, -_FARTHEST, _FARTHEST) * (count - 1)) / count
             mesh.colors = None
             mesh.uvs = np.stack([across, np.where(is_number, 0.25, 0.75)], axis=1)
-            _dress(mesh, Material(texture=self._texture))
+            dress(mesh, Material(texture=self._texture))
             return
         numbers = np.rint(np.clip(shares, 0.0, 1.0) * (count - 1)).astype(np.int64)
         chosen = bar.colors[numbers]
         mesh.colors = np.where(is_number[:, np.newaxis], chosen, np.uint8(MISSING[0]))
-        _dress(mesh, Material())
+        dress(mesh, Material())
 
 
 def coloring_of(scene: Scene, numbers: Numbers, up: str = "+Y", unit: str = "") -> Coloring:
@@ -297,12 +298,6 @@ def _colors_of(array: NDArray[Any]) -> NDArray[np.uint8]:
     numbers = np.clip(np.nan_to_num(array.astype(np.float64)) * scale, 0.0, 255.0)
     channels = [0, 0, 0] if array.shape[1] < 3 else [0, 1, 2]
     return np.rint(numbers[:, channels]).astype(np.uint8)
-
-
-def _dress(mesh: Mesh, material: Material) -> None:
-    """Give all faces of a mesh one material."""
-    mesh.material_ids = np.zeros(len(mesh.faces), np.int32)
-    mesh.materials = [material]
 
 
 def _texture(colors: NDArray[np.uint8]) -> Texture:

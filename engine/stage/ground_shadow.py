@@ -151,7 +151,7 @@ class GroundShadow:
         pose[:3, :3], pose[:3, 3] = np.stack(axes, axis=1), middle
         by_mesh = cull == "auto"  # each renderer keeps the mode it began with
         if by_mesh not in self._renderers:
-            self._renderers[by_mesh] = Renderer(SIDE, SIDE)
+            self._renderers[by_mesh] = Renderer((SIDE, SIDE))
         frame = self._renderers[by_mesh].render(
             self._scene, (camera, pose), outputs=("ndc_depth",), cull=cull
         )

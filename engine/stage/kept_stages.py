@@ -115,11 +115,10 @@ class KeptStages:
             )
         show_numbers(viewed, marks)
         settings = settings_for(self._look, options, self._material, marks)
-        size = self._renderer.width, self._renderer.height
         view_renderer = ViewRenderer(
             viewed,
             settings,
-            size,
+            self._renderer.size,
             samples=self._renderer.samples,
             renderer=self._renderer,
             **self._drawing,

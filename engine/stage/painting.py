@@ -22,6 +22,12 @@ def painted(thing: Mesh | InstancedMesh, material: Material) -> Mesh | Instanced
     return _painted_mesh(thing, material)
 
 
+def dress(mesh: Mesh, material: Material) -> None:
+    """Give all faces of a mesh one material."""
+    mesh.material_ids = np.zeros(len(mesh.faces), np.int32)
+    mesh.materials = [material]
+
+
 def check_material(value: Material | None) -> Material | None:
     """Return the material that replaces a model's own, checked; None keeps them.
 
@@ -38,7 +44,6 @@ def check_material(value: Material | None) -> Material | None:
 
 def _painted_mesh(mesh: Mesh, material: Material) -> Mesh:
     twin = copy.copy(mesh)
-    twin.material_ids = np.zeros(len(mesh.faces), np.int32)
-    twin.materials = [material]
+    dress(twin, material)
     twin.colors = None
     return twin

@@ -9,8 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..base.calls import refuse_unknown
-from ..base.image_size import check_size
-from ..choices import Antialias, Backend, ColorSpace, Samples
+from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..rendering.frame import Frame
 from ..rendering.options import RenderKeywords
@@ -44,7 +43,7 @@ def render(
     threads: int = 0,
     color_space: ColorSpace = "srgb",
     samples: Samples = 4,
-    antialiasing: Antialias = "msaa",
+    antialiasing: Antialiasing = "msaa",
     **options: Unpack[PictureKeywords],
 ) -> Frame:
     """Draw one frame of a file, a scene, a node, a mesh or points.
@@ -77,11 +76,9 @@ def render(
     >>> e3d.render(e3d.torus(), look="plain", material=e3d.Material(color=(200, 40, 40)))
     """
     refuse_unknown("render", options, (*PictureKeywords.__annotations__, *_RENDERER_KEYWORDS))
-    width, height = check_size(size)
     given: Any = options
     with Renderer(
-        width,
-        height,
+        size,
         look=look,
         material=material,
         backend=backend,

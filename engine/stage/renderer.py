@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..base.calls import hinted
 from ..base.validation import flag
-from ..choices import Antialias, Backend, ColorSpace, Samples
+from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
@@ -29,12 +30,11 @@ from ..rendering.options import (
     checked_options,
     shows_options,
 )
-from ..rendering.turn import RendererTurn
 from .appearance import BARE, DARK
 from .kept_stages import KeptStages, Stage
 from .look import Look, LookChoice, check_look
 from .near_origin import pose_from_file
-from .overlays.numbers import MarkKeywords, take_marks
+from .overlays.numbers import MarkKeywords, Marks, take_marks
 from .painting import check_material
 from .scenes_of_things import is_lit
 from .viewed_thing import comes_from_file, is_file
@@ -65,8 +65,8 @@ class Renderer(rendering.Renderer):
 
     Parameters
     ----------
-    width, height : int
-        Pixels, 1 to 16384.
+    size : (int, int)
+        Width and height in pixels, 1 to 16384.
     look : {"studio", "plain"} or Look
         How things without light of their own are drawn: all but scenes, and nodes with their
         subtrees, that have a light, an environment or ambient light. ``"studio"`` draws them as
@@ -92,8 +92,9 @@ class Renderer(rendering.Renderer):
 
     Attributes
     ----------
+    size : (int, int)
+        Width and height; changed by `resize`.
     width, height : int
-        Changed by `resize`.
     look : Look
     material : Material or None
     backend : str
@@ -109,8 +110,7 @@ class Renderer(rendering.Renderer):
 
     def __init__(
         self,
-        width: int,
-        height: int,
+        size: tuple[int, int],
         *,
         look: LookChoice = "studio",
         material: Material | None = None,
@@ -118,19 +118,17 @@ class Renderer(rendering.Renderer):
         threads: int = 0,
         color_space: ColorSpace = "srgb",
         samples: Samples = 4,
-        antialiasing: Antialias = "msaa",
+        antialiasing: Antialiasing = "msaa",
     ) -> None:
         self._worn, self._paint = check_look(look), check_material(material)
         super().__init__(
-            width,
-            height,
+            size,
             backend=backend,
             threads=threads,
             color_space=color_space,
             samples=samples,
             antialiasing=antialiasing,
         )
-        self._stage_turn = RendererTurn(self._native)
         self._drawing = {"backend": self.backend, "threads": threads, "antialiasing": antialiasing}
         self._of_thread = threading.local()  # stages are changed by drawing
 
@@ -142,18 +140,18 @@ class Renderer(rendering.Renderer):
     def material(self) -> Material | None:
         return self._paint
 
-    def resize(self, width: int, height: int) -> None:
+    @hinted
+    def resize(self, size: tuple[int, int]) -> None:
         """Change the size of future frames."""
-        with self._stage_turn.taken():
-            super().resize(width, height)
+        with self._turn.taken(staging=True):
+            super().resize(size)
             self._of_thread = threading.local()
 
     def close(self) -> None:
         """Free the renderer's memory; frames stay valid. Drawing afterwards raises an error."""
-        with self._stage_turn.taken(closing=True):
+        with self._turn.taken(closing=True, staging=True):
             super().close()
             self._of_thread = threading.local()
-            self._stage_turn.let_go()
 
     @shows_options
     def prepare(
@@ -161,7 +159,7 @@ class Renderer(rendering.Renderer):
         scene: Any,
         *,
         options: RenderOptions | None = None,
-        **keywords: Unpack[OptionKeywords],
+        **keywords: Unpack[DrawingKeywords],
     ) -> None:
         """Do the work of a thing's first frame in advance, so that it is as fast as later ones.
 
@@ -177,14 +175,16 @@ class Renderer(rendering.Renderer):
 
         Raises
         ------
-        InvalidArgumentError, OutOfMemoryError
+        InvalidArgumentError, OutOfMemoryError, FileFormatError, FileAccessError
         """
-        if self._is_drawn_as_it_is(scene):
-            super().prepare(scene, options=options, **keywords)
+        marks, named = _take_marks(keywords)
+        if not marks.shows_any and self._is_drawn_as_it_is(scene):
+            super().prepare(scene, options=options, **named)
             return
-        chosen, given = _chosen(options, keywords)
-        stage = self._stages.stage_of(scene, (BARE if self._is_bare(scene) else {}) | given)
-        super().prepare(stage.view_renderer.staging.scene, options=chosen)
+        with self._turn.taken(staging=True):
+            chosen, given = _chosen(options, named)
+            stage = self._stage_of(scene, given, marks)
+            super().prepare(stage.view_renderer.staging.scene, options=chosen)
 
     @shows_options
     def render(
@@ -259,22 +259,18 @@ class Renderer(rendering.Renderer):
         KeyboardInterrupt
             Ctrl-C stops a frame between its tiles.
         """
-        named: Any = dict(keywords)
-        marks = take_marks(named)
-        if flag(named.pop("edges", False), "edges"):
-            named = {"wireframe": "overlay", "line_color": DARK, **named}
+        marks, named = _take_marks(keywords)
         if not marks.shows_any and self._is_drawn_as_it_is(scene):
             return super().render(
                 scene, camera, out=out, culling_camera=culling_camera, options=options, **named
             )
-        with self._stage_turn.taken(), np.errstate(all="ignore"):
+        with self._turn.taken(staging=True), np.errstate(all="ignore"):
             chosen, given = _chosen(options, named)
-            is_bare = self._is_bare(scene) and not marks.shows_any
-            stage = self._stages.stage_of(scene, (BARE if is_bare else {}) | given, marks)
+            stage = self._stage_of(scene, given, marks)
             viewed = stage.view_renderer.viewed
             if culling_camera is not None:
                 culling_camera = _find_camera(viewed, scene, culling_camera)
-            view = self._view(stage, scene, camera, is_bare)
+            view = self._view(stage, scene, camera, self._is_bare(scene, marks))
             return stage.view_renderer.draw(
                 view, outputs=chosen.outputs, out=out, culling_camera=culling_camera
             )
@@ -296,9 +292,14 @@ class Renderer(rendering.Renderer):
             self._of_thread.kept = kept
         return kept
 
-    def _is_bare(self, thing: Any) -> bool:
+    def _stage_of(self, thing: Any, given: dict[str, Any], marks: Marks) -> Stage:
+        """Return the stage of a thing, for the options that were given."""
+        options = (BARE if self._is_bare(thing, marks) else {}) | given
+        return self._stages.stage_of(thing, options, marks)
+
+    def _is_bare(self, thing: Any, marks: Marks) -> bool:
         """Return whether a thing is drawn as a scene would be that holds it."""
-        return self._worn == _PLAIN and not comes_from_file(thing)
+        return self._worn == _PLAIN and not comes_from_file(thing) and not marks.shows_any
 
     def _view(self, stage: Stage, thing: Any, camera: CameraChoice, is_bare: bool) -> AnyView:
         """Return the view of a stage: that of a camera, else the thing's first one."""
@@ -310,7 +311,16 @@ class Renderer(rendering.Renderer):
         if found is None:
             return stage.first
         view_renderer.choose_theme(stage.first)
-        return CameraView(*found, stage.first.up, (self.width, self.height))
+        return CameraView(*found, stage.first.up, self.size)
+
+
+def _take_marks(keywords: DrawingKeywords) -> tuple[Marks, Any]:
+    """Return what keywords say about numbers, and the options of the others."""
+    named: Any = dict(keywords)
+    marks = take_marks(named)
+    if flag(named.pop("edges", False), "edges"):
+        named = {"wireframe": "overlay", "line_color": DARK, **named}
+    return marks, named
 
 
 def _find_camera(

@@ -19,7 +19,7 @@ def switch_shadows(groups: Iterable[list[Light]], shadow: LightShadow) -> None:
     groups : iterable of list of Light
         Groups of lights that shine together. In a group with more than four point lights, these
         cast none.
-    shadow : {False, True, "exact"}
+    shadow : {"none", "map", "exact"}
         The value of ``shadow`` for the main lights; the others cast none. Ambient lights have no
         shadow.
     """
@@ -27,7 +27,7 @@ def switch_shadows(groups: Iterable[list[Light]], shadow: LightShadow) -> None:
         lights = [light for light in group if isinstance(light, DirectLight)]
         main = _main_lights(lights)
         for light in lights:
-            light.shadow = shadow if light in main else False
+            light.shadow = shadow if light in main else "none"
 
 
 def _main_lights(lights: Sequence[DirectLight]) -> list[DirectLight]:

@@ -70,7 +70,7 @@ def _ball(material: Material) -> bytes:
     scene.add(ball)
     scene.add(DirectionalLight((-0.5, -0.7, -0.6), intensity=0.5 * WHITE_INTENSITY))
     camera = scene.add(OrthographicCamera(1.1), translation=(0.0, 0.0, 4.0))
-    with Renderer(SIDE, SIDE, samples=4, antialiasing="msaa") as renderer:
+    with Renderer((SIDE, SIDE), samples=4, antialiasing="msaa") as renderer:
         return renderer.render(scene, camera, tone_mapping="neutral").encode()
 
 

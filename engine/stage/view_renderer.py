@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 
 from ..base import linalg
-from ..choices import Antialias, Backend, Samples
+from ..choices import Antialiasing, Backend, Samples
 from ..model.scene.cameras import Camera, PerspectiveCamera
 from ..model.spatial.rays import RayHit
 from ..rendering.canvas import Canvas
@@ -60,7 +60,7 @@ class _Options(TypedDict, total=False):
 
     backend: Backend
     threads: int
-    antialiasing: Antialias
+    antialiasing: Antialiasing
 
 
 class ViewRenderer:
@@ -138,7 +138,7 @@ class ViewRenderer:
         if self._lent is not None:
             return self._lent
         if self.samples not in self._renderers:
-            renderer = Renderer(*self.size, samples=self.samples, **self._options)
+            renderer = Renderer(self.size, samples=self.samples, **self._options)
             self._renderers[self.samples] = renderer
         return self._renderers[self.samples]
 
@@ -211,19 +211,19 @@ class ViewRenderer:
         size = max(1, round(width / scale)), max(1, round(height / scale))
         options = self._options.copy()
         options["antialiasing"] = "ssaa"
-        with Renderer(*size, **options) as renderer:
+        with Renderer(size, **options) as renderer:
             try:
                 look = self._appearance()
                 return renderer.render(scene, (self._camera(view), view.pose()), **look).color
             finally:
                 scene.background = background
 
-    def resize(self, width: int, height: int) -> None:
+    def resize(self, size: tuple[int, int]) -> None:
         """Change the size of future frames."""
-        if (width, height) != self.size:
-            self.size = (width, height)
+        if size != self.size:
+            self.size = size
             for renderer in self._renderers.values():
-                renderer.resize(width, height)
+                renderer.resize(size)
 
     @property
     def aspect(self) -> float:

@@ -26,10 +26,10 @@ def draw_everything(canvas, rng, positions):
 
 
 def test_new_canvas_is_opaque_black():
-    canvas = Canvas(7, 5)
+    canvas = Canvas((7, 5))
     assert canvas.pixels.shape == (5, 7, 4) and (canvas.width, canvas.height) == (7, 5)
     assert (canvas.pixels == (0, 0, 0, 255)).all()
-    assert repr(canvas) == "Canvas(7, 5)"
+    assert repr(canvas) == "Canvas((7, 5))"
 
 
 def test_given_pixels_are_drawn_on_in_place():
@@ -47,7 +47,7 @@ def test_canvas_keeps_its_pixels_alive():
 
 @pytest.mark.parametrize("size", [(0, 0), (0, 5), (5, 0), (1, 1), (262144, 1), (1, 262144)])
 def test_every_size(size):
-    canvas = Canvas(*size)
+    canvas = Canvas(size)
     rng = np.random.default_rng(0)
     draw_everything(canvas, rng, lambda count: rng.uniform(-5, 9, count).tolist())
     canvas.clear((9, 9, 9))
@@ -55,25 +55,24 @@ def test_every_size(size):
 
 
 @pytest.mark.parametrize(
-    "arguments",
+    "size",
     [
-        (),
-        (5,),
+        5,
         (5, -1),
         (5.0, 5),
         (262145, 1),
         (1, 2, 3),
-        ([[[0, 0, 0, 0]]],),
-        (np.zeros((4, 4), np.uint8),),
-        (np.zeros((4, 4, 3), np.uint8),),
-        (np.zeros((4, 4, 4), np.float32),),
-        (np.zeros((4, 8, 4), np.uint8)[:, ::2],),
-        (np.zeros((4, 4, 8), np.uint8)[..., ::2],),
+        [[[0, 0, 0, 0]]],
+        np.zeros((4, 4), np.uint8),
+        np.zeros((4, 4, 3), np.uint8),
+        np.zeros((4, 4, 4), np.float32),
+        np.zeros((4, 8, 4), np.uint8)[:, ::2],
+        np.zeros((4, 4, 8), np.uint8)[..., ::2],
     ],
 )
-def test_wrong_canvases(arguments):
+def test_wrong_canvases(size):
     with pytest.raises(InvalidArgumentError):
-        Canvas(*arguments)
+        Canvas(size)
 
 
 def test_read_only_pixels_are_refused():
@@ -87,7 +86,7 @@ def test_read_only_pixels_are_refused():
     "color", [5, None, "redd", (1, 2), (1, 2, 3, 4, 5), (256, 0, 0), (-1, 0, 0), (1.5, 0, 0)]
 )
 def test_wrong_colors(color):
-    canvas = Canvas(4, 4)
+    canvas = Canvas((4, 4))
     with pytest.raises(InvalidArgumentError, match="color"):
         canvas.point(1, 1, color)
     with pytest.raises(InvalidArgumentError, match="color"):
@@ -96,13 +95,13 @@ def test_wrong_colors(color):
 
 @pytest.mark.parametrize("color", [[10, 20, 30], np.array([10, 20, 30]), bytes([10, 20, 30])])
 def test_kinds_of_colors(color):
-    canvas = Canvas(2, 2)
+    canvas = Canvas((2, 2))
     canvas.point(1, 1, color)
     assert canvas.pixels[1, 1].tolist() == [10, 20, 30, 255]
 
 
 def test_wrong_arguments():
-    canvas = Canvas(4, 4)
+    canvas = Canvas((4, 4))
     white = (255, 255, 255)
     for call in [
         lambda: canvas.line(0, 0, 1, 1, white, width=0),
@@ -126,7 +125,7 @@ def test_wrong_arguments():
 
 
 def test_points_are_the_pixels_that_hold_them():
-    canvas = Canvas(4, 3)
+    canvas = Canvas((4, 3))
     inside = [(0, 0), (0.999, 1.0), (3.5, 2.999), (1, 2)]
     outside = [(-0.001, 1), (4, 1), (1, 3), (1, -1e-300), (np.nan, 1), (1, np.inf), (1e300, 0)]
     canvas.points(inside + outside, (255, 255, 255))
@@ -134,7 +133,7 @@ def test_points_are_the_pixels_that_hold_them():
 
 
 def test_points_with_a_color_each():
-    canvas = Canvas(3, 1)
+    canvas = Canvas((3, 1))
     colors = np.array([[1, 2, 3], [4, 5, 6], [7, 8, 9]], np.uint8)
     canvas.points([(0, 0), (1, 0), (2, 0)], colors)
     assert canvas.pixels[0, :, :3].tolist() == colors.tolist()
@@ -143,7 +142,7 @@ def test_points_with_a_color_each():
 
 
 def test_rectangle_takes_the_pixels_whose_centres_it_holds():
-    canvas = Canvas(8, 6)
+    canvas = Canvas((8, 6))
     canvas.rectangle(1, 2, 4, 3, (255, 255, 255))
     assert canvas.pixels[2:5, 1:5, 0].all() and np.count_nonzero(canvas.pixels[..., 0]) == 12
     canvas.clear()
@@ -153,7 +152,7 @@ def test_rectangle_takes_the_pixels_whose_centres_it_holds():
 
 @pytest.mark.parametrize("size", [(-3, 2), (0, 5), (0.4, 3), (np.nan, 2)])
 def test_rectangles_of_no_pixels(size):
-    canvas = Canvas(8, 6)
+    canvas = Canvas((8, 6))
     canvas.rectangle(2.6, 2.6, *size, (255, 255, 255))
     canvas.rectangle(2.6, 2.6, *size, (255, 255, 255), fill=False)
     assert not canvas.pixels[..., 0].any()
@@ -162,7 +161,7 @@ def test_rectangles_of_no_pixels(size):
 @pytest.mark.parametrize("size", [(1, 1), (1, 4), (4, 1), (2, 2), (6, 5)])
 def test_outline_is_the_rim_once(size):
     width, height = size
-    canvas = Canvas(12, 12)
+    canvas = Canvas((12, 12))
     canvas.rectangle(2, 3, width, height, (255, 255, 255, 100), fill=False)
     expected = np.zeros((12, 12), np.uint8)
     expected[3 : 3 + height, 2 : 2 + width] = 100
@@ -171,7 +170,7 @@ def test_outline_is_the_rim_once(size):
 
 
 def test_infinite_rectangle_covers_the_canvas():
-    canvas = Canvas(8, 6)
+    canvas = Canvas((8, 6))
     canvas.rectangle(-1e300, -1e300, np.inf, np.inf, (255, 255, 255))
     assert canvas.pixels[..., 0].all()
 
@@ -204,7 +203,7 @@ def test_blending_on_translucent_pixels():
 
 
 def test_clear_overwrites_alpha():
-    canvas = Canvas(3, 3)
+    canvas = Canvas((3, 3))
     canvas.clear((1, 2, 3, 4))
     assert (canvas.pixels == (1, 2, 3, 4)).all()
 
@@ -212,7 +211,7 @@ def test_clear_overwrites_alpha():
 def test_window_shows_what_the_whole_canvas_shows():
     rng = np.random.default_rng(22)
     for _ in range(400):
-        whole, part = Canvas(200, 150), Canvas(70, 40)
+        whole, part = Canvas((200, 150)), Canvas((70, 40))
         seed = int(rng.integers(2**31))
         spread = rng.choice([0.25, 1, 40])  # quarters of pixels, so that shifts are exact
 
@@ -253,14 +252,14 @@ def test_nothing_is_drawn_outside_a_window():
 
 
 def test_flipped_canvas_draws_upside_down():
-    upright, flipped = Canvas(20, 30), Canvas(20, 30)
+    upright, flipped = Canvas((20, 30)), Canvas((20, 30))
     Canvas(flipped.pixels[::-1]).line(2, 3, 15, 27, (255, 255, 255))
     upright.line(2, 3, 15, 27, (255, 255, 255))
     assert np.array_equal(upright.pixels[::-1], flipped.pixels)
 
 
 def test_image_is_a_copy():
-    canvas = Canvas(4, 3)
+    canvas = Canvas((4, 3))
     canvas.point(1, 2, (10, 20, 30, 255))
     image = canvas.image()
     canvas.clear()

@@ -11,7 +11,7 @@ INT32 = (-(2**31), 2**31 - 1)
 
 
 def drawn(columns, rows, *ends, **style):
-    canvas = Canvas(columns, rows)
+    canvas = Canvas((columns, rows))
     canvas.line(*ends, WHITE, **style)
     return canvas.pixels[..., 0] > 0
 
@@ -118,7 +118,7 @@ def test_thick_line_of_no_length_is_a_dot():
 
 
 def test_translucent_thick_line_draws_each_pixel_once():
-    canvas = Canvas(60, 60)
+    canvas = Canvas((60, 60))
     for ends in random_lines(9, 50, 5, 55):
         canvas.clear()
         canvas.line(*ends, (255, 255, 255, 100), width=6)
@@ -150,7 +150,7 @@ def test_huge_width_fills_the_canvas():
 def test_lines_are_the_single_calls():
     ends = np.array(random_lines(10, 200, -10, 60))
     colors = np.random.default_rng(10).integers(0, 256, (200, 4), np.uint8)
-    together, one_by_one = Canvas(50, 50), Canvas(50, 50)
+    together, one_by_one = Canvas((50, 50)), Canvas((50, 50))
     together.lines(ends, colors)
     together.lines(ends.reshape(-1, 2, 2)[:20], (9, 8, 7), width=3)
     for line, color in zip(ends, colors, strict=True):
@@ -163,10 +163,10 @@ def test_lines_are_the_single_calls():
 @pytest.mark.parametrize("algorithm", ["bresenham", "dda"])
 def test_polyline_draws_shared_pixels_once(algorithm):
     points = [(3, 3), (20, 5), (22, 20), (4, 25)]
-    opened, closed = Canvas(30, 30), Canvas(30, 30)
+    opened, closed = Canvas((30, 30)), Canvas((30, 30))
     opened.polyline(points, (255, 255, 255, 100), algorithm=algorithm)
     closed.polyline(points, (255, 255, 255, 100), closed=True, algorithm=algorithm)
-    expected = Canvas(30, 30)
+    expected = Canvas((30, 30))
     for a, b in zip(points[:-1], points[1:], strict=True):
         expected.line(*a, *b, (100, 100, 100), algorithm=algorithm)
     assert np.array_equal(opened.pixels, expected.pixels)
@@ -175,7 +175,7 @@ def test_polyline_draws_shared_pixels_once(algorithm):
 
 
 def test_polyline_is_interrupted_by_nan():
-    canvas, expected = Canvas(30, 30), Canvas(30, 30)
+    canvas, expected = Canvas((30, 30)), Canvas((30, 30))
     points = [(2, 2), (9, 4), (np.nan, 3), (12, 12), (20, 25), (25, np.inf), (1, 1)]
     canvas.polyline(points, (255, 255, 255, 100))
     expected.line(2, 2, 9, 4, (100, 100, 100))
@@ -184,7 +184,7 @@ def test_polyline_is_interrupted_by_nan():
 
 
 def test_polyline_of_few_points():
-    canvas = Canvas(5, 5)
+    canvas = Canvas((5, 5))
     canvas.polyline([], WHITE)
     canvas.polyline([(1, 1)], WHITE)
     canvas.polyline(np.empty((0, 2)), WHITE, closed=True)

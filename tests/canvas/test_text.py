@@ -18,7 +18,7 @@ SHEET = Path(__file__).parents[2] / "csrc" / "extras" / "canvas" / "font.c"
 
 def drawn(string, width=None, height=None, at=(0, 0), **style):
     columns, rows = text_size(string, style.get("scale", 1))
-    canvas = Canvas(width or columns, height or rows)
+    canvas = Canvas((width or columns, height or rows))
     canvas.text(*at, string, WHITE, **style)
     return canvas.pixels[..., 0] > 0
 
@@ -108,26 +108,26 @@ def test_clipped_text_is_the_whole_text_inside():
 @pytest.mark.parametrize("text", [5, b"text", None])
 def test_what_is_no_text(text):
     with pytest.raises(InvalidArgumentError, match="string must be a str"):
-        Canvas(9, 9).text(0, 0, text, WHITE)
+        Canvas((9, 9)).text(0, 0, text, WHITE)
     with pytest.raises(InvalidArgumentError, match="string must be a str"):
         text_size(text)
 
 
 @pytest.mark.parametrize("at", [(np.nan, 0), (0, np.inf), (1e300, 0), (0, -1e300), (-(2**31), 5)])
 def test_hostile_positions_draw_nothing(at):
-    canvas = Canvas(30, 30)
+    canvas = Canvas((30, 30))
     canvas.text(*at, "text" * 100, WHITE, scale=4096, background=(9, 9, 9))
     assert not canvas.pixels[..., 0].any()
 
 
 def test_translucent_text_is_even():
-    canvas = Canvas(200, 30)
+    canvas = Canvas((200, 30))
     canvas.text(0, 0, PRINTABLE[:12], (255, 255, 255, 100), scale=2)
     assert set(np.unique(canvas.pixels[..., 0])) == {0, 100}
 
 
 def test_background_is_a_box_around_the_cells():
-    canvas = Canvas(60, 60)
+    canvas = Canvas((60, 60))
     canvas.text(10, 12, "ab\nc", WHITE, scale=1, background=(0, 0, 200))
     blue = canvas.pixels[..., 2] > 0
     rows, columns = np.flatnonzero(blue.any(axis=1)), np.flatnonzero(blue.any(axis=0))

@@ -87,7 +87,7 @@ def test_positions_beyond_the_limit_are_moved_there(algorithm):
 @pytest.mark.parametrize("algorithm", ["edge", "scanline"])
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_vertices_that_are_not_finite_drop_their_triangle(algorithm, bad):
-    canvas = Canvas(10, 10)
+    canvas = Canvas((10, 10))
     good = [0, 0, 10, 0, 0, 10]
     triangles = np.array([good] * 7, float)
     triangles[np.arange(6), np.arange(6)] = bad
@@ -100,7 +100,7 @@ def test_vertices_that_are_not_finite_drop_their_triangle(algorithm, bad):
 def test_snapping_is_to_nearest_even():
     # A left edge at 0.5 + 1/512 rounds to 128/256, the centre of pixel 0; 0.5 + 3/512 to 130/256.
     for offset, first in [(1 / 512, 0), (3 / 512, 1), (1 / 512 + 1e-9, 1)]:
-        canvas = Canvas(4, 4)
+        canvas = Canvas((4, 4))
         x = 0.5 + offset
         canvas.triangle((x, -50), (x, 50), (60, 0), (255, 255, 255))
         assert np.argmax(canvas.pixels[2, :, 0] > 0) == first
@@ -119,7 +119,7 @@ def test_fans_are_watertight(algorithm):
         rim = radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
         centre = rng.integers(0, 64, 2) / 2 if trial % 2 else rng.uniform(0, 32, 2)
         fan = [[centre, rim[k], rim[(k + 1) % count]] for k in range(count)]
-        canvas = Canvas(32, 32)
+        canvas = Canvas((32, 32))
         canvas.triangles(fan, (255, 255, 255, 100), algorithm=algorithm)
         inside = radius * np.cos(gaps.max() / 2) > 100
         if inside:
@@ -137,7 +137,7 @@ def test_random_meshes_are_watertight(algorithm):
         a, b = vertices[:-1, :-1], vertices[:-1, 1:]
         c, d = vertices[1:, 1:], vertices[1:, :-1]
         mesh = np.concatenate([np.stack([a, b, c], -2), np.stack([a, d, c], -2)]).reshape(-1, 3, 2)
-        canvas = Canvas(60, 60)
+        canvas = Canvas((60, 60))
         canvas.triangles(rng.permutation(mesh), (255, 255, 255, 100), algorithm=algorithm)
         assert (canvas.pixels[..., 0] == 100).all()
 

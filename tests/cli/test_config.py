@@ -33,7 +33,7 @@ def parsed(*options, command="render"):
 def test_options_of_the_users_own_file(own):
     own(
         {"options": {"look": "plain", "grid": True, "size": "64x48", "samples": 4}},
-        {"files": "*.STL", "options": {"up": "+X", "wireframe": True, "flat": True}},
+        {"files": "*.STL", "options": {"up": "+X", "wireframe": True, "normals": "flat"}},
         {"files": ["*.ply", "other/*"], "options": {"up": "-Z"}},
         {"options": {"background-gradient": ["white", "black"], "background-color": [1, 2, 3]}},
     )
@@ -44,7 +44,9 @@ def test_options_of_the_users_own_file(own):
     assert args.background_color == (1, 2, 3)
     assert parse(["render", "other/a.ply"]).up == "-Z"
     assert parsed("--no-config").up is None
-    args = parsed("--smooth", "--look", "studio", "-D", "grid=false", "-D", "wireframe=overlay")
+    args = parsed(
+        "--normals", "smooth", "--look", "studio", "-D", "grid=false", "-D", "wireframe=overlay"
+    )
     assert (args.normals, args.look, args.grid) == ("smooth", "studio", False)
     assert args.wireframe == "overlay"
 

@@ -126,7 +126,7 @@ def test_limits_are_those_of_what_draws():
     assert values.CITY_TRIANGLES == (LEAST, MOST)
     assert values.width("256") == values.MAX_WIDTH
     assert values.city_triangles("20000") == LEAST
-    with e3d.Renderer(8, 8) as renderer:
+    with e3d.Renderer((8, 8)) as renderer:
         renderer.render(e3d.Scene(), line_width=values.MAX_WIDTH, point_size=values.MAX_WIDTH)
         for name in ("line_width", "point_size"):
             with pytest.raises(e3d.InvalidArgumentError):
@@ -154,7 +154,9 @@ def test_choices_are_those_of_the_display_package():
 def test_settings_hold_only_what_was_given():
     assert options.settings(parse("render", "a.obj", "-o", "a.png")).appearance == {}
     given = options.settings(
-        parse("run", "a.obj", "--edges", "--unlit", "--flat", "--line-width", "2.5", "-gxm")
+        parse(
+            "run", "a.obj", "--edges", "--unlit", "--normals", "flat", "--line-width", "2.5", "-gxm"
+        )
     )
     assert given.appearance == {
         "mode": "unlit",

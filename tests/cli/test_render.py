@@ -105,8 +105,8 @@ def test_hidden_surfaces_flat_normals_and_points_change_a_solid(tmp_path):
 
     solid = ["--scene", "shapes"]
     assert draw(*solid) != draw(*solid, "--hidden-surfaces", "none", "--cull", "none")
-    flat = draw(*solid, "--flat")
-    assert draw(*solid) != flat != draw(*solid, "--facets") != draw(*solid)
+    flat = draw(*solid, "--normals", "flat")
+    assert draw(*solid) != flat != draw(*solid, "--normals", "facet") != draw(*solid)
     lines = [*solid, "--wireframe", "only"]
     assert draw(*lines) != draw(*lines, "--hidden-lines")
     points = ["--scene", "vertices"]

@@ -28,7 +28,7 @@ def test_it_says_what_a_report_of_a_bug_needs(capsys, monkeypatch):
     assert found["python"].endswith(platform.python_version())
     assert found["backends"] == {
         "available": e3d.backends(),
-        "auto": e3d.Renderer(8, 8).backend,
+        "auto": e3d.Renderer((8, 8)).backend,
         "threads": 3,
     }
     assert found["packages"]["numpy"] == metadata.version("numpy")

@@ -10,7 +10,7 @@ WIDTH, HEIGHT = 60, 40
 
 @pytest.fixture
 def make_samples():
-    with e3d.Renderer(WIDTH, HEIGHT, samples=4, threads=1) as renderer:
+    with e3d.Renderer((WIDTH, HEIGHT), samples=4, threads=1) as renderer:
         yield lambda writer, count=1: (
             sample(renderer, writer.outputs, index) for index in range(count)
         )

@@ -27,7 +27,7 @@ def build(scene, generator, size=0.3):
 def bop(tmp_path_factory):
     """A data set of two pictures, whose balls have two sizes."""
     folder, writer = tmp_path_factory.mktemp("bop"), BopWriter(**BOP)
-    with e3d.Renderer(WIDTH, HEIGHT, samples=1, threads=1) as renderer:
+    with e3d.Renderer((WIDTH, HEIGHT), samples=1, threads=1) as renderer:
         samples = [sample(renderer, writer.outputs, index) for index in range(2)]
         with pytest.warns(e3d.Engine3DWarning, match="things of 'ball' have several shapes each"):
             return folder, write_dataset(folder, writer, samples)

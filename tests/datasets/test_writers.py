@@ -105,7 +105,7 @@ def bop(tmp_path_factory):
     from datasets.conftest import HEIGHT, WIDTH, sample
 
     folder, writer = tmp_path_factory.mktemp("bop"), BopWriter("train_pbr", scene_size=2, **BOP)
-    renderer = e3d.Renderer(WIDTH, HEIGHT, samples=4, threads=1)
+    renderer = e3d.Renderer((WIDTH, HEIGHT), samples=4, threads=1)
     samples = [sample(renderer, writer.outputs, index) for index in range(3)]
     write_dataset(folder, writer, samples)
     return folder / "train_pbr", samples

@@ -77,15 +77,15 @@ if hit is not None:
     assert_type(hit.position, NDArray[np.float64])
 assert_type(e3d.linalg.sin(0.5), float)
 for backend in e3d.backends():
-    e3d.Renderer(64, 48, backend=backend)
+    e3d.Renderer((64, 48), backend=backend)
 """
 # Each line is wrong.
 WRONG = """
 e3d.render(scene, mode="lti")
 e3d.render(scene, wirefame="only")
-e3d.Renderer(64, 48, backend="cuda")
-e3d.Renderer(64, 48, samples=3)
-e3d.Renderer(64, 48).render(scene, outputs=("colour",))
+e3d.Renderer((64, 48), backend="cuda")
+e3d.Renderer((64, 48), samples=3)
+e3d.Renderer((64, 48)).render(scene, outputs=("colour",))
 e3d.Texture(mesh.positions, filter="linear")
 e3d.Material(alpha_mode="glass")
 e3d.Material(roughness="rough")

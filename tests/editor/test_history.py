@@ -21,7 +21,7 @@ from engine3d.apps.editor.scene_state import SceneState
 from engine3d.apps.editor.value_commands import SetValues
 from engine3d.io.writing.scene_saving import scene_text
 
-RENDERER = e3d.Renderer(48, 36)
+RENDERER = e3d.Renderer((48, 36))
 VIEW = e3d.PerspectiveCamera(1.2), e3d.look_at((0, 0, 9), (0, 0, 0))
 
 

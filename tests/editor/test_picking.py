@@ -38,7 +38,7 @@ def test_faces_are_found_with_their_materials(picture):
     }
     assert found == {"red", "blue"}
     crowd = pick(scene, frame, *pixel(frame, (1, 0, 1.25)))
-    assert crowd.node.name == "crowd" and crowd.hit.instance == 1
+    assert crowd.node.name == "crowd" and crowd.hit.instance_id == 1
     assert crowd.material is crowd.node.object.mesh.materials[0]
     assert pick(scene, frame, 0, 0) is None
 

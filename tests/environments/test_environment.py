@@ -105,7 +105,7 @@ def test_a_change_shows_in_the_next_frame():
     scene = e3d.Scene(e3d.Environment(pixels))
     camera = e3d.PerspectiveCamera(), np.eye(4)
     seen = set()
-    with Renderer(32, 16) as renderer:
+    with Renderer((32, 16)) as renderer:
         for name, value in (
             ("environment_rotation", 1.0),
             ("environment_intensity", 0.5),

@@ -131,7 +131,7 @@ def picture(make, kind, shadow, backend="auto", threads=2, **options):
 
 def hidden_and_lit(make, kind, **options):
     """Where the light would reach a pixel if nothing were in between, and where it is hidden."""
-    open_, shadowed = (picture(make, kind, shadow, **options) for shadow in (False, "exact"))
+    open_, shadowed = (picture(make, kind, shadow, **options) for shadow in ("none", "exact"))
     lit = open_.color[..., :3].any(-1)
     changed = (open_.color != shadowed.color).any(-1)
     assert not shadowed.color[changed][..., :3].any()  # wholly, or not at all
@@ -160,7 +160,7 @@ def test_flat_and_convex_surfaces_are_never_in_their_own_shadow(kind):
         offset = rng.normal(size=3) * scale * 10.0 ** rng.uniform(-1, 2)
         turned, to = rotation(rng), scale * 4 * rng.normal(size=3)
         pictures = []
-        for shadow in (False, "exact"):
+        for shadow in ("none", "exact"):
             scene = e3d.Scene(ambient=(0, 0, 0))
             scene.add(meshes[trial % 3], pose=pose_of(turned, offset, scale))
             if kind == "sun":
@@ -177,7 +177,7 @@ def test_shadows_begin_where_things_touch():
     """A wall on a floor: seen from above, no lit pixel is between the wall and its shadow."""
     for turned in (np.eye(3), rotation(np.random.default_rng(5))):
         rows = []
-        for shadow in (False, "exact"):
+        for shadow in ("none", "exact"):
             scene = e3d.Scene(background=(255, 0, 0), ambient=(0, 0, 0))
             root = scene.add(None, pose=pose_of(turned, (3.0, -2.0, 5.0)))
             scene.add(white(e3d.plane(4.0)), parent=root)
@@ -263,7 +263,7 @@ def test_casters_that_move_are_found_again():
     scene = floor_and_caster(white(e3d.box(1.0)))
     box = list(scene.nodes)[1]
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
-    with Renderer(64, 64) as renderer:
+    with Renderer((64, 64)) as renderer:
         frames = []
         for x in (0.0, 0.5, 0.5, 40.0):
             box.translation = (x, 6, 0)
@@ -278,7 +278,7 @@ def test_casters_whose_mesh_or_material_changes_are_found_again():
     mesh = white(e3d.box(1.0))
     scene = floor_and_caster(mesh)
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
-    with Renderer(64, 64) as renderer:
+    with Renderer((64, 64)) as renderer:
         counts = []
         for change in ("none", "mesh", "material"):
             if change == "mesh":
@@ -304,7 +304,7 @@ def test_at_most_32_lights():
 
 def test_lights_with_maps_and_exact_ones_side_by_side():
     scene = floor_and_caster(white(e3d.box(1.0)))
-    scene.add(e3d.DirectionalLight((0.4, -1, 0), color=(0, 1, 0), shadow=True))
+    scene.add(e3d.DirectionalLight((0.4, -1, 0), color=(0, 1, 0), shadow="map"))
     scene.add(e3d.DirectionalLight((-0.4, -1, 0), color=(0, 0, 1), shadow="exact"))
     camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
     pictures = [

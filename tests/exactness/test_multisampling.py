@@ -70,7 +70,7 @@ def draw(corners, samples, backend, colors=None, **options):
     scene = e3d.Scene(background=(0, 0, 0))
     scene.add(mesh)
     with Renderer(
-        *SIZE, backend=backend, color_space="linear", samples=samples, antialiasing="msaa"
+        SIZE, backend=backend, color_space="linear", samples=samples, antialiasing="msaa"
     ) as renderer:
         return renderer.render(scene, clip_camera(), mode="unlit", **options).color
 
@@ -131,7 +131,7 @@ def test_no_colour_is_extrapolated(backend):
         scene = e3d.Scene(background=(0, 0, 0))
         scene.add(mesh)
         with Renderer(
-            *SIZE, backend=backend, color_space="linear", samples=8, antialiasing="msaa"
+            SIZE, backend=backend, color_space="linear", samples=8, antialiasing="msaa"
         ) as renderer:
             color = renderer.render(scene, clip_camera(), mode="unlit").color
         assert not color[..., 1].any()  # green lies outside the corners' coordinates
@@ -171,7 +171,7 @@ def test_alpha_to_coverage_covers_half_at_the_cutoff(backend):
         )
         scene.add(e3d.Mesh(points, [[0, 1, 2]], materials=[material]))
         with Renderer(
-            *SIZE, backend=backend, color_space="linear", samples=4, antialiasing="msaa"
+            SIZE, backend=backend, color_space="linear", samples=4, antialiasing="msaa"
         ) as r:
             smooth = r.render(scene, clip_camera(), mode="unlit", alpha_to_coverage=True).color
             sharp = r.render(scene, clip_camera(), mode="unlit").color
@@ -198,7 +198,7 @@ def test_what_hides_a_part_of_a_pixel_does_not_move_the_alpha_of_what_is_behind(
         scene.add(e3d.Mesh(points, faces, uvs=4 * points[:, :2], materials=[material]))
     pictures = []
     for backend in ("scalar", *e3d.backends()):
-        with Renderer(64, 64, backend=backend, samples=16, antialiasing="msaa") as renderer:
+        with Renderer((64, 64), backend=backend, samples=16, antialiasing="msaa") as renderer:
             frame = renderer.render(scene, clip_camera(), alpha_to_coverage=to_coverage)
             pictures.append(frame.color)
     assert all(np.array_equal(pictures[0], other) for other in pictures[1:])
@@ -206,10 +206,10 @@ def test_what_hides_a_part_of_a_pixel_does_not_move_the_alpha_of_what_is_behind(
 
 def test_numbers_of_samples_that_methods_lack():
     with pytest.raises(e3d.InvalidArgumentError, match="samples"):
-        Renderer(8, 8, samples=8)
+        Renderer((8, 8), samples=8)
     with pytest.raises(e3d.InvalidArgumentError, match="antialiasing"):
-        Renderer(8, 8, antialiasing="fxaa")
-    assert Renderer(8, 8, samples=8, antialiasing="msaa").antialiasing == "msaa"
+        Renderer((8, 8), antialiasing="fxaa")
+    assert Renderer((8, 8), samples=8, antialiasing="msaa").antialiasing == "msaa"
 
 
 def crowd():
@@ -229,11 +229,11 @@ def crowd():
 @pytest.mark.parametrize("samples", [2, 4, 16])
 def test_what_is_left_out_and_when_changes_nothing(samples, backend):
     scene, size = crowd(), (150, 106)
-    with Renderer(*size, backend="scalar", samples=samples, antialiasing="msaa") as renderer:
+    with Renderer(size, backend="scalar", samples=samples, antialiasing="msaa") as renderer:
         expected = renderer.render(scene).color.copy()
     for threads in (1, 2, 3):
         with Renderer(
-            *size, backend=backend, threads=threads, samples=samples, antialiasing="msaa"
+            size, backend=backend, threads=threads, samples=samples, antialiasing="msaa"
         ) as renderer:
             for culling in ("all", "always", "always", "tree", "frustum", "none"):
                 assert np.array_equal(renderer.render(scene, culling=culling).color, expected)

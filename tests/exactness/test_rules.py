@@ -32,7 +32,7 @@ def clip_at(points, *, z=0.0, w=1.0, size=SIZE):
 def covered(points, backend, *, size=SIZE):
     """Which pixels one triangle covers, (size, size) bool."""
     result = e3d.rasterization.rasterize(
-        clip_at(points, size=size), [[0, 1, 2]], size, size, backend=backend
+        clip_at(points, size=size), [[0, 1, 2]], (size, size), backend=backend
     )
     return result.face_id == 0
 
@@ -68,7 +68,7 @@ def test_top_left_rule_on_a_square_between_centers(backend):
     """Edges through centres: the left column and the top row are in, the right and bottom out."""
     corners = [(128, 128), (128 + 768, 128), (128 + 768, 128 + 768), (128, 128 + 768)]
     result = e3d.rasterization.rasterize(
-        clip_at(corners), [[0, 1, 2], [0, 2, 3]], SIZE, SIZE, backend=backend
+        clip_at(corners), [[0, 1, 2], [0, 2, 3]], (SIZE, SIZE), backend=backend
     )
     expected = np.zeros((SIZE, SIZE), bool)
     expected[0:3, 0:3] = True
@@ -106,7 +106,9 @@ def test_positions_snap_to_nearest_even(backend, left, first, w):
     size = 2
     corners = [(left, 0), (512, 0), (512, 512), (left, 512)]
     clip = clip_at(corners, w=w, size=size)
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2], [0, 2, 3]], size, size, backend=backend)
+    result = e3d.rasterization.rasterize(
+        clip, [[0, 1, 2], [0, 2, 3]], (size, size), backend=backend
+    )
     columns = np.nonzero((result.face_id >= 0).all(axis=0))[0]
     assert columns[0] == first
 
@@ -137,7 +139,7 @@ def test_culling_goes_by_the_winding_on_the_screen(backend):
         ("none", [[0, 2, 1]], True),
     ]:
         result = e3d.rasterization.rasterize(
-            counter_clockwise, faces, SIZE, SIZE, cull=cull, backend=backend
+            counter_clockwise, faces, (SIZE, SIZE), cull=cull, backend=backend
         )
         assert (result.face_id >= 0).any() == visible
 
@@ -148,7 +150,7 @@ def test_not_finite_vertices_drop_their_triangles_only(backend):
         broken = clip.copy()
         broken[4, component] = value
         result = e3d.rasterization.rasterize(
-            broken, [[3, 4, 5], [0, 1, 2]], SIZE, SIZE, backend=backend
+            broken, [[3, 4, 5], [0, 1, 2]], (SIZE, SIZE), backend=backend
         )
         assert set(np.unique(result.face_id)) == {-1, 1}
         assert not np.isnan(result.depth).any() and np.isfinite(result.barycentric).all()
@@ -172,7 +174,7 @@ def test_barycentrics_are_perspective_correct(backend):
         points = (points + rng.integers(-400, 400, (3, 2)))[rng.permutation(3)]
         w = 2.0 ** rng.integers(-3, 4, 3)
         clip = clip_at(points, w=w)
-        result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
+        result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], (SIZE, SIZE), backend=backend)
         for row, column in zip(*np.nonzero(result.face_id == 0), strict=True):
             expected = exact_barycentrics(points, w, row, column)
             assert np.abs(result.barycentric[row, column] - expected).max() < 2e-6
@@ -182,7 +184,7 @@ def test_depth_is_linear_on_the_screen_and_within_its_vertices(backend):
     points = [(-600, 4500), (4700, 4400), (1800, -900)]
     z = np.array([-0.75, 0.5, 0.125], np.float32)
     clip = clip_at(points, z=z, w=[1.0, 4.0, 0.5])
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
+    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], (SIZE, SIZE), backend=backend)
     for row, column in zip(*np.nonzero(result.face_id == 0), strict=True):
         weights = exact_barycentrics(points, [1, 1, 1], row, column)
         assert abs(result.depth[row, column] - np.dot(weights, z)) < 1e-6
@@ -193,7 +195,7 @@ def test_depth_is_linear_on_the_screen_and_within_its_vertices(backend):
 @pytest.mark.parametrize("z", [-1.0, -0.375, 0.0, 0.7, 1.0])
 def test_constant_depth_is_kept_to_the_bit(backend, z):
     clip = clip_at([(-99, -77), (9001, 3), (5, 8999)], z=np.float32(z))
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
+    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], (SIZE, SIZE), backend=backend)
     assert (result.face_id == 0).all() and (result.depth == np.float32(z)).all()
 
 
@@ -203,7 +205,7 @@ def test_nearer_wins_and_a_tie_goes_to_the_first(backend):
     quads = [[[4 * q, 4 * q + 1, 4 * q + 2], [4 * q, 4 * q + 2, 4 * q + 3]] for q in range(4)]
     for order in itertools.permutations(range(4)):
         faces = np.concatenate([quads[q] for q in order])
-        result = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
+        result = e3d.rasterization.rasterize(clip, faces, (SIZE, SIZE), backend=backend)
         first = min(order.index(1), order.index(2))
         assert set(np.unique(result.face_id)) == {2 * first, 2 * first + 1}
         assert (result.depth == 0.25).all()
@@ -212,7 +214,7 @@ def test_nearer_wins_and_a_tie_goes_to_the_first(backend):
 def test_ties_between_slanted_triangles_go_to_the_first(backend):
     """The same triangle three times: one depth everywhere, and only the first shows."""
     clip = clip_at([(-600, 4500), (4700, 4400), (1800, -900)], z=[-0.7, 0.5, 0.1], w=[1, 4, 0.5])
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]] * 3, SIZE, SIZE, backend=backend)
+    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]] * 3, (SIZE, SIZE), backend=backend)
     assert set(np.unique(result.face_id)) <= {-1, 0}
 
 
@@ -220,7 +222,9 @@ def test_far_plane_drops_fragments(backend):
     """z_ndc falls from 1.5 at the left edge to 0.5 at the right one: the right half is seen."""
     corners = [(0, 0), (4096, 0), (4096, 4096), (0, 4096)]
     clip = clip_at(corners, z=[1.5, 0.5, 0.5, 1.5])
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2], [0, 2, 3]], SIZE, SIZE, backend=backend)
+    result = e3d.rasterization.rasterize(
+        clip, [[0, 1, 2], [0, 2, 3]], (SIZE, SIZE), backend=backend
+    )
     seen = result.face_id >= 0
     assert not seen[:, : SIZE // 2].any() and seen[:, SIZE // 2 :].all()
     assert result.depth[seen].max() <= 1.0 and np.isposinf(result.depth[~seen]).all()
@@ -229,7 +233,7 @@ def test_far_plane_drops_fragments(backend):
 def test_beyond_the_far_plane_nothing_shows(backend):
     beyond = float(np.nextafter(np.float32(1), np.float32(2)))
     clip = clip_at([(-99, -77), (9001, 3), (5, 8999)], z=beyond)
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
+    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], (SIZE, SIZE), backend=backend)
     assert (result.face_id == -1).all()
 
 
@@ -251,7 +255,7 @@ def test_triangles_that_cross_the_near_plane(backend, seed):
     scale, shift = (zfar + znear) / (znear - zfar), 2 * zfar * znear / (znear - zfar)
     clip = np.stack([view[:, 0], view[:, 1], scale * view[:, 2] + shift, -view[:, 2]], axis=1)
     clip = clip.astype(np.float32)
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], size, size, backend=backend)
+    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], (size, size), backend=backend)
     compared = 0
     for row, column in itertools.product(range(size), range(size)):
         weights, z = visible_weights(clip, size, row, column)
@@ -278,7 +282,7 @@ def test_no_cracks_along_edges_cut_by_the_near_plane(backend):
     for row, column in itertools.product(range(8), range(8)):
         a = 9 * row + column
         for face in ([a, a + 1, a + 9], [a + 9, a + 1, a + 10]):
-            result = e3d.rasterization.rasterize(clip, [face], 64, 64, backend=backend)
+            result = e3d.rasterization.rasterize(clip, [face], (64, 64), backend=backend)
             layers += result.face_id == 0
     below = layers[36:60, :]  # from near the horizon to near the near plane's line
     assert layers.max() == 1 and (below[:, 12:52] == 1).all()
@@ -287,7 +291,7 @@ def test_no_cracks_along_edges_cut_by_the_near_plane(backend):
 @pytest.mark.parametrize("size", [(1, 1), (16384, 1), (1, 16384), (3, 257)])
 def test_a_triangle_over_everything_fills_every_size(backend, size):
     clip = np.array([[-1, -1, 0, 1], [3, -1, 0, 1], [-1, 3, 0, 1]], np.float32)
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], *size, backend=backend)
+    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], size, backend=backend)
     assert (result.face_id == 0).all() and (result.depth == 0).all()
     assert np.abs(result.barycentric.sum(axis=-1) - 1).max() < 1e-6
 
@@ -296,6 +300,6 @@ def test_a_triangle_over_everything_fills_every_size(backend, size):
 def test_huge_coordinates_are_clipped_not_lost(backend, huge):
     """A half-plane whose vertices are far beyond the guard band still ends where it should."""
     clip = np.array([[0, -huge, 0, 1], [huge, 0, 0, 1], [0, huge, 0, 1]], np.float32)
-    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
+    result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], (SIZE, SIZE), backend=backend)
     seen = result.face_id == 0
     assert seen[:, SIZE // 2 :].all() and not seen[:, : SIZE // 2].any()

@@ -98,7 +98,7 @@ def test_encode_is_the_nearest_srgb_code(backend):
 @pytest.mark.parametrize("color_space", ["srgb", "linear"])
 def test_eight_bit_colors_come_back(backend, color_space):
     """Encode undoes decode for backgrounds and vertex colours of every code."""
-    renderer = Renderer(1, 1, backend=backend, threads=1, color_space=color_space)
+    renderer = Renderer((1, 1), backend=backend, threads=1, color_space=color_space)
     for code in range(2, 256):
         color = np.array([code, 255 - code, 77, 255], np.uint8)
         scene = e3d.Scene(background=tuple(int(c) for c in color[:3]))

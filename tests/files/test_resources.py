@@ -101,7 +101,7 @@ def test_files_that_changed_are_loaded_again(folder):
     scene = e3d.Scene(ambient=(1, 1, 1))
     scene.add(mesh)
     camera = e3d.OrthographicCamera(1.0), e3d.look_at((0.3, 0.3, 2), (0.3, 0.3, 0))
-    with Renderer(16, 16) as renderer:
+    with Renderer((16, 16)) as renderer:
         assert resources.reload_changed() == ()
         before = renderer.render(scene, camera).color
         paint(folder / "t.png", 60)

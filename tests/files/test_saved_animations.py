@@ -12,7 +12,7 @@ def turned(count, size=(32, 24)):
     scene = e3d.Scene()
     scene.add(e3d.box())
     camera = e3d.PerspectiveCamera()
-    with Renderer(*size) as renderer:
+    with Renderer(size) as renderer:
         for pose in e3d.orbit((0, 0, 0), 4.0, np.linspace(0.0, 1.0, count), 0.3):
             yield renderer.render(scene, (camera, pose))
 

@@ -198,7 +198,7 @@ def test_what_is_no_picture_is_an_error(content, tmp_path):
 
 
 def test_frames_canvases_images_and_files_are_pictures(tmp_path):
-    canvas = e3d.Canvas(5, 4)
+    canvas = e3d.Canvas((5, 4))
     canvas.line(0, 0, 4, 3, (255, 0, 0))
     assert np.array_equal(as_pixels(canvas), canvas.pixels)
     assert np.array_equal(as_pixels(canvas.image()), canvas.pixels)

@@ -65,7 +65,7 @@ def contact_sheet(frames):
         size = [max(1, int(side * scale)) for side in image.size]
         image = image.resize(size, Image.Resampling.NEAREST)
         sheet.paste(image, (x, y + CAPTION), image)
-        caption = e3d.Canvas(width, CAPTION)
+        caption = e3d.Canvas((width, CAPTION))
         caption.clear((0, 0, 0, 255))
         caption.text(1, 2, name[:33], (255, 255, 255))
         sheet.paste(Image.fromarray(caption.pixels).convert("RGB"), (x, y))

@@ -32,7 +32,7 @@ class Picture:
 
     def renderer(self, backend, threads=1):
         return Renderer(
-            *self.size,
+            self.size,
             backend=backend,
             threads=threads,
             color_space=self.color_space,

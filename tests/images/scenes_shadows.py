@@ -34,7 +34,7 @@ def seen(scene, eye=(2.2, 2.0, 3.2), target=(0, 0.3, 0), **how):
 
 def sun(samples=1, shading="deferred", **options):
     scene = stage()
-    options = {"shadow_map_size": 256, "shadow": True, **options}
+    options = {"shadow_map_size": 256, "shadow": "map", **options}
     scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, **options))
     return seen(scene, samples=samples, shading=shading)
 
@@ -57,7 +57,7 @@ def shadow_cascades():
     for row in range(24):
         for side in (-1.2, 1.4):
             scene.add(column, translation=(side, 1.0, -2.0 * row))
-    light = e3d.DirectionalLight(SUN, shadow=True, shadow_map_size=128, intensity=0.75 * math.pi)
+    light = e3d.DirectionalLight(SUN, shadow="map", shadow_map_size=128, intensity=0.75 * math.pi)
     scene.add(light)
     return seen(scene, (0.2, 1.6, 3.0), (0, 0.9, -6), zfar=200.0)
 
@@ -73,7 +73,7 @@ def lamp(taps=3, radius=1.0, samples=1):
         scene.add(twig, translation=(-0.2, 0.9, 0.4), euler=(0.6, 0, turn))
     light = e3d.PointLight(
         intensity=1.6 * math.pi,
-        shadow=True,
+        shadow="map",
         shadow_map_size=128,
         shadow_taps=taps,
         shadow_radius=radius,
@@ -93,7 +93,7 @@ def spot(angle, taps, reach=math.inf):
         intensity=14.0 * math.pi,
         range=reach,
         outer_cone_angle=angle,
-        shadow=True,
+        shadow="map",
         shadow_map_size=192,
         shadow_taps=taps,
     )
@@ -119,7 +119,7 @@ def shadow_of_holes():
     for mode, x in (("mask", -0.6), ("blend", 0.6)):
         material = {"texture": texture, "alpha_mode": mode, "two_sided": True}
         scene.add(floor(1.0, **material), translation=(x, 1.3, 0.1), euler=(0.3, 0, 0))
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow=True, shadow_map_size=256))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow="map", shadow_map_size=256))
     return seen(scene)
 
 
@@ -140,7 +140,7 @@ def physical(samples=1):
     )
     scene.add(ball, translation=(-0.3, 0.5, 0))
     scene.add(with_material(e3d.box(0.6), color=TEAL, **plate), translation=(0.7, 0.3, -0.4))
-    maps = {"shadow": True, "shadow_map_size": 128}
+    maps = {"shadow": "map", "shadow_map_size": 128}
     scene.add(e3d.DirectionalLight(SUN, intensity=2.0, **maps))
     scene.add(e3d.PointLight(intensity=3.0, **maps), translation=(1.2, 1.4, 0.9))
     return seen(scene, samples=samples)
@@ -162,7 +162,7 @@ def shadow_on_mapped_normals():
         "specular": e3d.linear(0.3, 0.3, 0.3),
     }
     scene.add(floor(5.0, **tiles), translation=(0, 0.01, 0))
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow=True, shadow_map_size=256))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow="map", shadow_map_size=256))
     return seen(scene)
 
 
@@ -180,7 +180,7 @@ def shadow_switches():
     scene.add(roof, translation=(0.3, 1.6, 0.9))
     lines = e3d.Mesh(np.array([[-1.5, 2, 0.0], [1.5, 2, 0]]), lines=[[0, 1]], points=[0, 1])
     scene.add(lines)
-    scene.add(e3d.DirectionalLight((-0.2, -1, -0.6), shadow=True, shadow_map_size=256))
+    scene.add(e3d.DirectionalLight((-0.2, -1, -0.6), shadow="map", shadow_map_size=256))
     return seen(scene)
 
 
@@ -212,5 +212,5 @@ def shadow_on_glass():
     poses = np.tile(np.eye(4), (3, 1, 1))
     poses[:, :3, 3] = [(-0.4, 1.3, 0.9), (0.3, 1.4, 0.7), (1.0, 1.2, 0.5)]
     scene.add(e3d.InstancedMesh(with_material(e3d.icosphere(0.18, 2), color=CORAL), poses))
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow=True, shadow_map_size=256))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow="map", shadow_map_size=256))
     return seen(scene)

@@ -192,7 +192,7 @@ def features():
     return found
 
 
-SHADOWS = ({}, {"shadow": True, "shadow_map_size": 64}, {"shadow": "exact"})
+SHADOWS = ({}, {"shadow": "map", "shadow_map_size": 64}, {"shadow": "exact"})
 CAMERA = e3d.PerspectiveCamera(1.0, zfar=50), e3d.look_at((1, 1.2, 3.5), (0, 0, 0))
 
 
@@ -237,18 +237,18 @@ def test_every_feature_after_every_other(backend, settings, share):
     settings = {"backend": backend, "threads": 1, **settings}
     expected = {}
     for name in names:
-        with Renderer(*SIZE, **settings) as fresh:
+        with Renderer(SIZE, **settings) as fresh:
             twice = [draw(fresh, made[name], name) for _ in range(2)]
         assert twice[0] == twice[1], f"{name} is drawn otherwise the second time"
         expected[name] = twice[0]
     walk = every_pair(len(names), rng)
-    with Renderer(*SIZE, **settings) as kept:
+    with Renderer(SIZE, **settings) as kept:
         for before, number in itertools.pairwise(walk[: int(share * len(walk))]):
             name = names[number]
             if rng.random() < 0.02:
-                kept.resize(*rng.integers(1, 90, 2).tolist())
+                kept.resize(rng.integers(1, 90, 2).tolist())
                 draw(kept, made[name], name)
-                kept.resize(*SIZE)
+                kept.resize(SIZE)
             assert draw(kept, made[name], name) == expected[name], f"{name} after {names[before]}"
 
 
@@ -260,7 +260,7 @@ def test_pictures_in_any_order():
         how = picture.color_space, picture.samples, picture.antialiasing
         if how not in kept:
             kept[how] = picture.renderer("auto")
-        kept[how].resize(*picture.size)
+        kept[how].resize(picture.size)
         drawn = {"outputs": tuple(OUTPUTS), **picture.options}
         frame = kept[how].render(picture.scene, picture.camera, **drawn)
         assert digests(frame) == hashes[name], name

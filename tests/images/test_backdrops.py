@@ -81,7 +81,7 @@ def test_a_frame_in_rounds(samples):
     scene.add(e3d.InstancedMesh(e3d.icosphere(subdivisions=1), poses))
     options = {"samples": samples, "size": (300, 200), "culling": "always"}
     expected = drawn(scene, **options)
-    with Renderer(300, 200, samples=samples, threads=2) as renderer:
+    with Renderer((300, 200), samples=samples, threads=2) as renderer:
         for _ in range(4):
             frame = renderer.render(scene, (CAMERAS["perspective"], POSE), culling="always")
             assert np.array_equal(frame.color, expected)
@@ -99,7 +99,7 @@ def test_the_background_is_what_lies_along_the_ray(camera, turn):
     scene = e3d.Scene(e3d.Environment(gradient()))
     scene.environment_rotation = turn
     got = drawn(scene, camera, size=(160, 100), color_space="linear")[:, :, :3] / 255
-    inverse = np.linalg.inv(CAMERAS[camera].projection(160, 100))
+    inverse = np.linalg.inv(CAMERAS[camera].projection((160, 100)))
     x, y = np.meshgrid((np.arange(160) + 0.5) / 80 - 1, 1 - (np.arange(100) + 0.5) / 50)
     far = np.stack([x, y, np.ones_like(x), np.ones_like(x)], axis=-1) @ inverse.T
     d = (far[..., :3] / far[..., 3:]) @ POSE[:3, :3].T

@@ -123,9 +123,9 @@ def test_modes_of_the_caller(backend, mode):
     clip[:, 3] = rng.uniform(0.3, 3, 300)
     clip[:150, 2] = rng.uniform(-1e-38, 1e-38, 150)
     faces = np.arange(300, dtype=np.int32).reshape(-1, 3)
-    plain = e3d.rasterization.rasterize(clip, faces, 200, 150, backend=backend, threads=3)
+    plain = e3d.rasterization.rasterize(clip, faces, (200, 150), backend=backend, threads=3)
     with float_mode(bits):
-        changed = e3d.rasterization.rasterize(clip, faces, 200, 150, backend=backend, threads=3)
+        changed = e3d.rasterization.rasterize(clip, faces, (200, 150), backend=backend, threads=3)
     for name in ("face_id", "depth", "barycentric"):
         assert getattr(changed, name).tobytes() == getattr(plain, name).tobytes(), name
     seen = plain.depth[plain.face_id >= 0]

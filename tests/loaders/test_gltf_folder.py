@@ -56,7 +56,7 @@ def test_a_folder_of_files_is_drawn_and_forgotten():
         pytest.skip("needs the glTF corpus in ../shared (or ENGINE3D_SHARED)")
     assert len(files) >= 100
     after = []
-    with Renderer(SIZE, SIZE) as renderer:
+    with Renderer((SIZE, SIZE)) as renderer:
         for chosen in (files, files[::2], files[::2]):
             held = []
             for case in chosen:

@@ -153,7 +153,7 @@ def test_ids_stay(impostor):
     assert (ids[0][both] == ids[1][both]).mean() > 0.95
     y, x = np.argwhere(ids[1] == 17)[len(np.argwhere(ids[1] == 17)) // 2]
     hit = scene.pick(seen[1], int(x), int(y))
-    assert (hit.node, hit.instance) == (group, 17)
+    assert (hit.node, hit.instance_id) == (group, 17)
 
 
 def test_pictures_are_the_same_everywhere(impostor):

@@ -68,7 +68,7 @@ def with_instances(color):
 
 
 def with_canvas(color):
-    canvas = e3d.Canvas(24, 18)
+    canvas = e3d.Canvas((24, 18))
     canvas.clear(color)
     canvas.line(0, 0, 9, 9, color, width=2)
     canvas.text(1, 1, "a", "white", background=color)
@@ -76,7 +76,7 @@ def with_canvas(color):
 
 
 def with_points(color):
-    canvas = e3d.Canvas(24, 18)
+    canvas = e3d.Canvas((24, 18))
     canvas.points([(3, 3), (5, 5)], [color] * 2)
     return canvas.pixels.tobytes()
 

@@ -22,7 +22,7 @@ def world_points(scene, node):
 def test_nodes_that_go_and_come_back_are_bent_again():
     rng = np.random.default_rng(1)
     scene, node = skinned_scene(bent_tube(rng), rng)
-    renderer = Renderer(64, 64)
+    renderer = Renderer((64, 64))
     before = world_points(scene, node)
     scene.remove(node)
     renderer.render(scene)
@@ -84,7 +84,7 @@ def test_what_a_thread_draws_stays_as_it_is_while_another_moves_it():
     for _ in range(4):
         wriggle(joints, rng)
         poses.append(joints.poses)
-    renderer = Renderer(128, 96, threads=1)
+    renderer = Renderer((128, 96), threads=1)
     expected = set()
     for pose in poses:
         joints.poses = pose
@@ -93,7 +93,7 @@ def test_what_a_thread_draws_stays_as_it_is_while_another_moves_it():
     seen, stop = [], threading.Event()
 
     def draw():
-        own = Renderer(128, 96, threads=1)
+        own = Renderer((128, 96), threads=1)
         while not stop.is_set():
             seen.append(own.render(scene, view()).color.tobytes())
 
@@ -164,7 +164,7 @@ def in_some_order(rng):
 def test_the_order_in_which_a_mesh_is_made_to_bend_changes_nothing(seed):
     rng = np.random.default_rng(seed)
     scene, mesh, node, joint, camera = flat_scene()
-    skin, renderer = e3d.motion.Skin([joint], np.eye(4)[None]), Renderer(64, 64)
+    skin, renderer = e3d.motion.Skin([joint], np.eye(4)[None]), Renderer((64, 64))
     for _ in range(12):
         try:
             STEPS[str(rng.choice(list(STEPS)))](mesh, node, skin)
@@ -183,7 +183,7 @@ def test_the_order_in_which_a_mesh_is_made_to_bend_changes_nothing(seed):
     skin = e3d.motion.Skin([joint], np.eye(4)[None])
     for step in END:
         STEPS[step](mesh, node, skin)
-    assert seen == looked_at(fresh, camera, Renderer(64, 64))
+    assert seen == looked_at(fresh, camera, Renderer((64, 64)))
 
 
 def test_meshes_that_are_made_to_bend_after_their_nodes_bend():

@@ -289,10 +289,10 @@ def test_a_kept_renderer_draws_what_a_fresh_one_does(tmp_path):
         player.stop()
         return color
 
-    kept, scene = Renderer(48, 48, threads=1), viewed()
+    kept, scene = Renderer((48, 48), threads=1), viewed()
     pictures = {}
     for time in (0.0, 1.0, 2.0, 0.5, 0.0, 2.0):
         picture = drawn(kept, scene, time)
         assert pictures.setdefault(time, picture) == picture
-        assert drawn(Renderer(48, 48, threads=1), viewed(), time) == picture
+        assert drawn(Renderer((48, 48), threads=1), viewed(), time) == picture
     assert len(set(pictures.values())) == 4

@@ -43,8 +43,8 @@ def view(distance=16):
 @pytest.mark.parametrize("distance", (16, 4))
 def test_culling_leaves_out_nothing_that_shows_at_any_time(distance):
     scene, joints, rng = stage(1)
-    brute = Renderer(160, 120)
-    culled = {culling: Renderer(160, 120) for culling in ("all", "always", "frustum")}
+    brute = Renderer((160, 120))
+    culled = {culling: Renderer((160, 120)) for culling in ("all", "always", "frustum")}
     different = set()
     for _ in range(8):
         wriggle(joints, rng)
@@ -63,7 +63,7 @@ def test_every_backend_draws_the_same():
     wriggle(joints, rng)
     outputs = ("color", "depth", "normal", "object_id", "face_id")
     frames = [
-        Renderer(160, 120, backend=name, threads=threads).render(scene, view(), outputs=outputs)
+        Renderer((160, 120), backend=name, threads=threads).render(scene, view(), outputs=outputs)
         for name in e3d.backends()
         for threads in (1, 2)
     ]
@@ -74,7 +74,7 @@ def test_every_backend_draws_the_same():
 @pytest.mark.parametrize("options", ({}, {"normals": "flat"}, {"wireframe": "only"}))
 def test_a_posed_mesh_is_drawn_as_one_with_those_vertices(options):
     scene, joints, rng = stage(3, count=2)
-    renderer = Renderer(160, 120)
+    renderer = Renderer((160, 120))
     for _ in range(3):
         wriggle(joints, rng)
         frame = renderer.render(scene, view(), **options)
@@ -83,13 +83,13 @@ def test_a_posed_mesh_is_drawn_as_one_with_those_vertices(options):
         for node in scene.nodes:
             if node.skin:
                 plain.add(node._drawn.now(), pose=placing_pose(node))
-        other = Renderer(160, 120).render(plain, view(), **options)
+        other = Renderer((160, 120)).render(plain, view(), **options)
         assert np.array_equal(frame.color, other.color)
 
 
 def test_renderers_with_other_needs_show_the_same_pose():
     scene, joints, rng = stage(4, count=2)
-    smooth, flat, fresh = (Renderer(96, 96) for _ in range(3))
+    smooth, flat, fresh = (Renderer((96, 96)) for _ in range(3))
     for _ in range(3):
         wriggle(joints, rng)
         a = smooth.render(scene, view(), outputs=("depth",)).depth
@@ -100,7 +100,7 @@ def test_renderers_with_other_needs_show_the_same_pose():
 
 def test_rays_meet_what_is_bent():
     scene, joints, rng = stage(5)
-    renderer = Renderer(64, 48)
+    renderer = Renderer((64, 48))
     for _ in range(2):
         wriggle(joints, rng)
         outputs = ("depth", "object_id", "face_id", "instance_id")
@@ -140,7 +140,7 @@ def test_cameras_frame_what_is_bent():
     world = by_matrices(node.object, node)
     seen = linalg.transform_points(linalg.inverse(pose), world)
     assert (seen[:, 2] < 0).all()
-    frame = Renderer(64, 64).render(scene, (camera, pose), outputs=("object_id",))
+    frame = Renderer((64, 64)).render(scene, (camera, pose), outputs=("object_id",))
     assert (frame.object_id == node.id).sum() > 100
 
 
@@ -166,7 +166,7 @@ def test_a_mesh_that_changes_is_bent_anew():
     rng = np.random.default_rng(9)
     scene, node = skinned_scene(bent_tube(rng, targets=1), rng)
     node.morph_weights = [0.5]
-    renderer = Renderer(64, 64)
+    renderer = Renderer((64, 64))
     renderer.render(scene)
     mesh = node.object
     mesh.positions = mesh.positions * 2
@@ -185,7 +185,7 @@ def test_a_mesh_that_changes_is_bent_anew():
 def test_what_a_node_holds_may_change():
     rng = np.random.default_rng(10)
     scene, node = skinned_scene(bent_tube(rng), rng)
-    renderer = Renderer(64, 64)
+    renderer = Renderer((64, 64))
     renderer.render(scene)
     mesh, before = node.object, node.bounds
     node.object = e3d.box()

@@ -150,7 +150,7 @@ def test_what_browsers_tell(event, expected):
 NOTEBOOK = (
     "import engine3d as e3d\nfrom engine3d.notebook import View\nview = View(e3d.torus())\nview",
     "frame = e3d.render(view._viewer.view_renderer.viewed.scene, size=(64, 48))\nframe",
-    "e3d.Canvas(20, 10)",
+    "e3d.Canvas((20, 10))",
     "scene = e3d.Scene()\nscene.add(e3d.box())\nscene",
     "e3d.uv_sphere()",
     "e3d.show(scene)",

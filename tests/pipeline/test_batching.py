@@ -62,11 +62,11 @@ def assert_same(a, b):
 )
 def test_pictures_are_those_without_batches(backend, options):
     scene, _ = mixed_scene(np.random.default_rng(4))
-    oracle = Renderer(96, 64, backend="scalar").render(
+    oracle = Renderer((96, 64), backend="scalar").render(
         scene, CAMERA, outputs=OUTPUTS, batching=False, **options
     )
     for threads in (1, 3):
-        with Renderer(96, 64, backend=backend, threads=threads) as renderer:
+        with Renderer((96, 64), backend=backend, threads=threads) as renderer:
             for frame in pictures(scene, renderer, **options):
                 assert_same(frame, oracle)
     assert oracle.object_id.max() > 0
@@ -90,7 +90,7 @@ def test_draws_are_counted():
     for k in range(60):
         scene.add((red, blue)[k % 2], translation=(k % 8 - 4, k // 8 - 4, 0), static=True)
     scene.add(red, translation=(0, 0, 500))  # behind the camera
-    on, off = pictures(scene, Renderer(64, 64))
+    on, off = pictures(scene, Renderer((64, 64)))
     assert (on.stats["draws"], on.stats["draws_unbatched"]) == (2, 60)
     assert (off.stats["draws"], off.stats["draws_unbatched"]) == (60, 60)
     assert on.stats["instances"] == off.stats["instances"] == 60
@@ -104,7 +104,7 @@ def test_nodes_are_left_out_one_by_one():
     random = np.random.default_rng(8)
     for place in random.uniform(-40, 40, (3000, 3)):
         scene.add(mesh, translation=place, static=True)
-    with Renderer(96, 64) as renderer:
+    with Renderer((96, 64)) as renderer:
         for culling in ("all", "tree", "frustum", "always"):
             on, off = pictures(scene, renderer, culling=culling)
             assert_same(on, off)
@@ -115,14 +115,14 @@ def test_nodes_are_left_out_one_by_one():
 def test_a_batch_follows_its_nodes():
     random = np.random.default_rng(5)
     scene, group = mixed_scene(random)
-    renderer = Renderer(96, 64)
+    renderer = Renderer((96, 64))
 
     last = np.zeros(1)
 
     def check(changes=True):
         nonlocal last
         on, off = pictures(scene, renderer)
-        fresh = Renderer(96, 64).render(scene, CAMERA, outputs=OUTPUTS, batching=False)
+        fresh = Renderer((96, 64)).render(scene, CAMERA, outputs=OUTPUTS, batching=False)
         assert_same(on, fresh)
         assert_same(off, fresh)
         assert (on.color != last).any() == changes
@@ -159,7 +159,7 @@ def test_a_moving_camera_with_rounds():
     for place in random.uniform(-12, 12, (2000, 3)):
         scene.add(mesh, translation=place)
     camera = e3d.PerspectiveCamera(0.9, znear=0.1, zfar=60.0)
-    renderer, other = Renderer(128, 96), Renderer(128, 96)
+    renderer, other = Renderer((128, 96)), Renderer((128, 96))
     rounds = []
     for k in range(5):
         pose = e3d.look_at((0.2 * k, 0.1, 14 - k), (0.3 * k, 0, 0))
@@ -194,7 +194,7 @@ def test_meshes_of_the_same_materials_share_them():
             made.add(mesh, translation=(1.5 * (k % 4) - 2.2, 1.5 * (k // 4) - 1.5, 0))
         return made, common
 
-    with Renderer(96, 64) as renderer:
+    with Renderer((96, 64)) as renderer:
         apart = renderer.render(scene(False)[0], CAMERA, outputs=OUTPUTS)
         made, common = scene(True)
         together = renderer.render(made, CAMERA, outputs=OUTPUTS)

@@ -35,7 +35,7 @@ def picture(renderer, scene, cull, camera=None):
 
 @pytest.fixture
 def renderer():
-    with Renderer(160, 120) as renderer:
+    with Renderer((160, 120)) as renderer:
         yield renderer
 
 
@@ -182,7 +182,7 @@ def test_windows_are_the_same_on_all_backends(options):
     expected = None
     for backend in ("scalar", *(name for name in e3d.backends() if name != "scalar")):
         for culling in ("all", "none"):
-            with Renderer(150, 90, backend=backend, threads=2, **options) as one:
+            with Renderer((150, 90), backend=backend, threads=2, **options) as one:
                 frame = one.render(scene, (camera, pose), cull="auto", culling=culling)
                 expected = frame.color.copy() if expected is None else expected
                 assert (frame.color == expected).all(), (backend, culling)
@@ -235,4 +235,4 @@ def test_picking_takes_what_shows(renderer):
     scene = scene_of(inside_out(box((1, 1, 1))))
     frame = renderer.render(scene, cull="auto", outputs=("color", "depth", "face_id", "object_id"))
     hit = scene.pick(frame, 80, 60)
-    assert hit.face == frame.face_id[60, 80]
+    assert hit.face_id == frame.face_id[60, 80]

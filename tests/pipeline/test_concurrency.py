@@ -29,7 +29,7 @@ def test_renderers_in_several_threads_draw_the_same(scene):
     expected = render(scene, size=SIZE, threads=1).color
 
     def draw(threads):
-        with Renderer(*SIZE, threads=threads) as renderer:
+        with Renderer(SIZE, threads=threads) as renderer:
             return all(np.array_equal(renderer.render(scene).color, expected) for _ in range(10))
 
     with ThreadPoolExecutor(6) as pool:
@@ -37,7 +37,7 @@ def test_renderers_in_several_threads_draw_the_same(scene):
 
 
 def test_one_renderer_in_several_threads_draws_one_frame_after_the_other(scene):
-    renderer = Renderer(*SIZE)
+    renderer = Renderer(SIZE)
     expected = {
         mode: render(scene, size=SIZE, mode=mode).color for mode in ("lit", "normal", "depth")
     }
@@ -60,7 +60,7 @@ def test_drawing_releases_the_gil(scene):
             time.sleep(0.001)
 
     counter = threading.Thread(target=count)
-    renderer = Renderer(1920, 1080, threads=1, backend="scalar")
+    renderer = Renderer((1920, 1080), threads=1, backend="scalar")
     counter.start()
     before = counted
     renderer.render(scene)
@@ -74,7 +74,7 @@ def test_drawing_releases_the_gil(scene):
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_a_fork_draws_the_same(scene):
-    renderer = Renderer(*SIZE, threads=3)
+    renderer = Renderer(SIZE, threads=3)
     expected = renderer.render(scene).color.tobytes()
     child = os.fork()
     if child == 0:
@@ -98,7 +98,7 @@ def test_ctrl_c_stops_a_long_frame(threads):
     poses[:, 3] = 1 + np.arange(800) * 1e-4
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.5, (64, 32)), poses))
     camera = (e3d.OrthographicCamera(0.2, znear=-9, zfar=9), np.eye(4))
-    renderer = Renderer(4096, 4096, threads=threads, samples=4, backend="portable")
+    renderer = Renderer((4096, 4096), threads=threads, samples=4, backend="portable")
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     start = time.process_time()
@@ -106,7 +106,7 @@ def test_ctrl_c_stops_a_long_frame(threads):
         renderer.render(scene, camera, hidden_surfaces="painter")
     assert time.process_time() - start < 10
     timer.join()
-    renderer.resize(8, 8)
+    renderer.resize((8, 8))
     assert renderer.render(e3d.Scene()).color.shape == (8, 8, 4)
 
 
@@ -114,7 +114,7 @@ def test_a_signal_handler_that_does_not_raise_changes_nothing(scene):
     seen = []
     previous = signal.signal(signal.SIGUSR1, lambda *_: seen.append(1))
     try:
-        renderer = Renderer(1920, 1080, threads=1)
+        renderer = Renderer((1920, 1080), threads=1)
         expected = renderer.render(scene).color.tobytes()
         timer = threading.Timer(0.001, os.kill, (os.getpid(), signal.SIGUSR1))
         timer.start()
@@ -138,13 +138,13 @@ def test_a_scene_that_changes_meanwhile_is_named_as_the_cause(scene, change):
     class Lens(e3d.PerspectiveCamera):
         """Fails once another thread has had its turn."""
 
-        def projection(self, width, height):
+        def projection(self, size):
             thread = threading.Thread(target=change_nodes)
             thread.start()
             thread.join()
             raise IndexError("out of range")
 
-    with Renderer(*SIZE) as renderer:
+    with Renderer(SIZE) as renderer:
         with pytest.raises((e3d.errors.SceneChangedError, IndexError)) as error:
             renderer.render(scene, (Lens(), e3d.look_at((0, 0, 3), (0, 0, 0))))
         assert error.type is (IndexError if change is None else e3d.errors.SceneChangedError)

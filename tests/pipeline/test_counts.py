@@ -34,7 +34,7 @@ def boxes(places, side=1.0):
 
 def outside(places, side, camera, pose):
     """How far each box is beyond the plane that it is farthest beyond; float64."""
-    clip = multiply(camera.projection(*SIZE), inverse(pose))
+    clip = multiply(camera.projection(SIZE), inverse(pose))
     corners = np.stack(np.meshgrid(*[(-side / 2, side / 2)] * 3, indexing="ij"), -1).reshape(-1, 3)
     points = places[:, np.newaxis] + corners
     x, y, z, w = (points @ row[:3] + row[3] for row in clip)
@@ -49,7 +49,7 @@ def test_in_frustum(backend, culling):
     places = random.uniform(-30, 30, (900, 3))
     scene = boxes(places)
     camera = e3d.PerspectiveCamera(0.8, znear=0.5, zfar=40.0)
-    with Renderer(*SIZE, backend=backend) as renderer:
+    with Renderer(SIZE, backend=backend) as renderer:
         for _ in range(8):
             pose = e3d.look_at(random.uniform(-20, 20, 3), random.uniform(-20, 20, 3))
             beyond = outside(places, 1.0, camera, pose)
@@ -74,7 +74,7 @@ def test_unoccluded_and_drawn(threads):
     for place in hidden:
         scene.add(mesh, translation=place)
     camera, pose = e3d.PerspectiveCamera(1.2, znear=0.1, zfar=200.0), np.eye(4)
-    with Renderer(*SIZE, threads=threads) as renderer:
+    with Renderer(SIZE, threads=threads) as renderer:
         for _ in range(6):  # until all that was seen at first is tried again
             outputs = ("object_id", "face_id")
             frame = renderer.render(scene, (camera, pose), culling="always", outputs=outputs)
@@ -137,9 +137,9 @@ def test_no_stage_has_more_than_the_one_before(culling):
     scene = random_scene(random)
     camera = e3d.PerspectiveCamera(0.9, znear=0.1, zfar=60.0)
     with (
-        Renderer(*SIZE, threads=1) as one,
-        Renderer(*SIZE, threads=3) as three,
-        Renderer(*SIZE, backend="scalar") as scalar,
+        Renderer(SIZE, threads=1) as one,
+        Renderer(SIZE, threads=3) as three,
+        Renderer(SIZE, backend="scalar") as scalar,
     ):
         for k in range(5):
             view = camera, e3d.look_at((3 * k - 6, 4, 14), (0, 0, 0))
@@ -167,7 +167,7 @@ def test_edges_alone_count_the_triangles_that_they_are_of(threads):
     random = np.random.default_rng(3)
     scene = boxes(random.uniform(-30, 30, (300, 3)))
     view = e3d.PerspectiveCamera(0.8, znear=0.5, zfar=40.0), np.eye(4)
-    with Renderer(*SIZE, threads=threads) as renderer:
+    with Renderer(SIZE, threads=threads) as renderer:
         faces = counts(renderer.render(scene, view, culling="frustum").stats)
         edges = counts(renderer.render(scene, view, wireframe="only", hidden_lines=True).stats)
     assert (edges[1:, :3] == faces[1:, :3]).all() and 0 < edges[2, 1] < edges[2, 0]
@@ -184,7 +184,7 @@ def test_in_frustum_does_not_depend_on_what_is_hidden(threads):
     for place in random.uniform((-14, -9, -14), (14, 9, -6), (60, 3)):
         scene.add(mesh, translation=place)
     camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=40.0)
-    with Renderer(*SIZE, threads=threads) as renderer:
+    with Renderer(SIZE, threads=threads) as renderer:
         for k in range(6):
             view = camera, e3d.look_at((0.1 * k, 0, 0), (0, 0, -10))
             expected = counts(renderer.render(scene, view, culling_camera=view).stats)[:, 1]

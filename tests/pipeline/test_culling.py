@@ -37,7 +37,7 @@ def pictures(renderer, scene, eye, **options):
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_no_culling_changes_a_byte(samples, threads):
     scene = crowd()
-    with Renderer(200, 150, threads=threads, samples=samples) as renderer:
+    with Renderer((200, 150), threads=threads, samples=samples) as renderer:
         for eye in EYES:
             stats, expected = pictures(renderer, scene, eye, culling="none")
             assert stats["clusters_culled"] == stats["clusters_occluded"] == 0
@@ -50,7 +50,7 @@ def test_no_culling_changes_a_byte(samples, threads):
 def test_a_turning_camera_loses_nothing():
     """What the last frame showed is drawn first, and is not what this one shows."""
     scene = crowd()
-    with Renderer(160, 120) as renderer:
+    with Renderer((160, 120)) as renderer:
         for angle in np.linspace(0, 6, 25):
             eye = (5 * np.sin(angle), np.cos(3 * angle), 5 * np.cos(angle))
             _, expected = pictures(renderer, scene, eye, culling="none")
@@ -66,7 +66,7 @@ def test_tiles_that_are_drawn_twice(threads):
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.3, (24, 16)), np.c_[places, np.ones(len(places))]))
     door = scene.add(e3d.primitives.quad(), translation=(1, 0, 6), scale=2)
     eyes = [(0.5, 0.5, 9)] * 4 + [(0.52, 0.5, 8.9), (0.54, 0.51, 8.8), (9, 0.5, 0.5), (9, 0.5, 0.6)]
-    with Renderer(520, 390, threads=threads) as renderer:
+    with Renderer((520, 390), threads=threads) as renderer:
         for number, eye in enumerate(eyes):
             door.visible = number % 3 != 2  # it hides much, and then no more
             stats, got = pictures(renderer, scene, eye, culling="always")
@@ -80,7 +80,7 @@ def test_what_is_hidden_is_left_out():
     """Behind a wall that fills the view almost nothing is set up."""
     scene = crowd()
     scene.add(e3d.primitives.quad(), translation=(0, 0, 5), scale=40)
-    with Renderer(320, 240) as renderer:
+    with Renderer((320, 240)) as renderer:
         stats, _ = pictures(renderer, scene, EYES[0], culling="none")
         for _ in range(2):
             fewer, _ = pictures(renderer, scene, EYES[0], culling="always")
@@ -96,7 +96,7 @@ def test_equal_depths_go_to_the_first_in_order():
     poses = np.c_[places, np.zeros(len(places)), np.full(len(places), 1)].astype(np.float32)
     scene.add(e3d.InstancedMesh(e3d.primitives.quad(), poses))
     rng = np.random.default_rng(0)
-    with Renderer(160, 120) as renderer:
+    with Renderer((160, 120)) as renderer:
         for _ in range(40):
             camera = e3d.PerspectiveCamera(yfov=0.8, znear=rng.uniform(0.01, 1), zfar=50)
             view = camera, e3d.look_at((0, 0, rng.uniform(2, 9)), (0, 0, 0), (0, 1, 0))
@@ -114,7 +114,7 @@ def test_culling_camera_leaves_out_what_is_not_in_its_frustum():
     scene.add(e3d.icosphere(), translation=(0, 0, 6))
     above = e3d.PerspectiveCamera(yfov=1.0), e3d.look_at((0, 25, 0.1), (0, 0, 0), (0, 1, 0))
     ahead = e3d.PerspectiveCamera(yfov=1.0), e3d.look_at((0, 0, 0), (0, 0, -1), (0, 1, 0))
-    with Renderer(100, 100) as renderer:
+    with Renderer((100, 100)) as renderer:
         everything = renderer.render(scene, above, outputs=("object_id",)).object_id
         frozen = renderer.render(scene, above, outputs=("object_id",), culling_camera=ahead)
     assert len(np.unique(everything)) == 3
@@ -190,7 +190,7 @@ def test_facing_changes_no_byte(cull, unit, far):
     centre = np.array([1, -0.5, 0.25]) * far
     scene, culled = cloud(rng, unit, centre), 0
     for number, (width, height) in enumerate([(64, 48), (131, 97), (256, 192)]):
-        with Renderer(width, height, threads=1 + number % 2) as renderer:
+        with Renderer((width, height), threads=1 + number % 2) as renderer:
             for camera in cameras(unit, width, height):
                 eye = centre + unit * rng.normal(0, 1, 3) * rng.choice([0.5, 4])
                 pose = e3d.look_at(eye, centre, (0, 1, 0.1))
@@ -203,7 +203,7 @@ def test_what_faces_away_is_left_out():
     scene = e3d.Scene()
     scene.add(e3d.uv_sphere(1.0, (96, 64)))
     view = e3d.PerspectiveCamera(yfov=0.6), e3d.look_at((0, 0, 4), (0, 0, 0), (0, 1, 0))
-    with Renderer(640, 480) as renderer:
+    with Renderer((640, 480)) as renderer:
         both = renderer.render(scene, view, cull="none").stats
         for cull in ("back", "front"):
             stats = renderer.render(scene, view, cull=cull).stats
@@ -227,7 +227,7 @@ def test_slivers_that_snapping_turns(size):
     """In tiny coordinates, too, with poses that make them large: products that float32 lacks."""
     view = e3d.PerspectiveCamera(yfov=0.9), e3d.look_at((0, 0, 6), (0, 0, 0), (0, 1, 0))
     culled = 0
-    with Renderer(256, 192, threads=1) as renderer:
+    with Renderer((256, 192), threads=1) as renderer:
         for seed in range(30):
             rng = np.random.default_rng(seed)
             poses = np.tile(np.eye(4), (20, 1, 1))
@@ -248,7 +248,7 @@ def test_what_is_hidden_is_known_after_two_frames():
     scene = e3d.Scene()
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(1.0, (20, 11)), np.c_[places, np.ones(len(places))]))
     view = e3d.PerspectiveCamera(1.0, znear=0.05), e3d.look_at((0, 0, 0), (9, 4, -20))
-    with Renderer(640, 360, threads=2) as renderer:
+    with Renderer((640, 360), threads=2) as renderer:
         drawn = [renderer.render(scene, view).stats["clusters_drawn"] for _ in range(9)]
     assert drawn[2:] == drawn[-1:] * 7
     assert drawn[-1] < drawn[0]
@@ -262,7 +262,7 @@ def test_occlusion_is_judged_by_what_the_second_frame_finds():
     scene = e3d.Scene()
     scene.add(e3d.InstancedMesh(e3d.icosphere(0.8, 3), poses.astype(np.float32)))
     view = e3d.PerspectiveCamera(0.7, znear=0.1), e3d.look_at((30, 30, 30), (0, 0, 0))
-    with Renderer(320, 180, threads=1) as renderer:
+    with Renderer((320, 180), threads=1) as renderer:
         stats = [renderer.render(scene, view).stats for _ in range(6)]
     assert [frame["rounds"] for frame in stats] == [5, 2, 2, 2, 2, 2]
     tried = [frame["clusters_drawn"] + frame["clusters_occluded"] for frame in stats]
@@ -283,7 +283,7 @@ def test_occlusion_is_tried_again_in_a_scene_of_many_more_items():
     """They cover hardly more of the picture than the fewer before, which hid little of it."""
     view = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=500.0), e3d.look_at((0, 75, 60), (0, 0, 0))
     few, many = field(28, 2.9), field(40, 2.0)
-    with Renderer(320, 180, threads=1) as renderer:
+    with Renderer((320, 180), threads=1) as renderer:
         assert [renderer.render(few, view).stats["rounds"] for _ in range(4)] == [5, 2, 1, 1]
         assert [renderer.render(many, view).stats["rounds"] for _ in range(4)] == [5, 2, 1, 1]
 
@@ -294,7 +294,7 @@ def test_occlusion_is_tried_again_in_another_view():
     camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=500.0)
     above = camera, e3d.look_at((0, 75, 60), (0, 0, 0))
     along = camera, e3d.look_at((0, 0.5, 44), (0, 0, 0))
-    with Renderer(320, 180, threads=1) as renderer:
+    with Renderer((320, 180), threads=1) as renderer:
         assert [renderer.render(scene, above).stats["rounds"] for _ in range(4)] == [5, 2, 1, 1]
         for _ in range(3):
             stats = renderer.render(scene, along).stats

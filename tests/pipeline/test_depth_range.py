@@ -58,8 +58,8 @@ def test_reversed_depth_on_every_backend(backend):
 
 @pytest.mark.parametrize("zfar", [100.0, math.inf])
 def test_the_planes_of_reversed_depth(zfar):
-    matrix = e3d.PerspectiveCamera(znear=0.5, zfar=zfar, reversed_depth=True).projection(4, 3)
-    usual = e3d.PerspectiveCamera(znear=0.5, zfar=zfar).projection(4, 3)
+    matrix = e3d.PerspectiveCamera(znear=0.5, zfar=zfar, reversed_depth=True).projection((4, 3))
+    usual = e3d.PerspectiveCamera(znear=0.5, zfar=zfar).projection((4, 3))
     assert (matrix[[0, 1, 3]] == usual[[0, 1, 3]]).all()
     at = [matrix @ (0, 0, -distance, 1) for distance in (0.5, min(zfar, 1e30))]
     assert [z / w for _, _, z, w in at] == pytest.approx([-1, 0], abs=1e-12)
@@ -72,7 +72,7 @@ def test_what_sees_the_far_plane_sees_it_there():
         camera_at(1, 1, 3, znear=0.1, zfar=100.0, reversed_depth=flag) for flag in (False, True)
     )
     outputs = ("color", "depth", "object_id", "instance_id", "face_id")
-    with Renderer(96, 64) as renderer:
+    with Renderer((96, 64)) as renderer:
         frames = [renderer.render(scene, one, outputs=outputs) for one in (usual, turned)]
         assert np.abs(frames[0].color.astype(int) - frames[1].color).max() <= 1
         y, x = np.argwhere(frames[0].object_id >= 0)[5].tolist()

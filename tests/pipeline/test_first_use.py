@@ -55,7 +55,7 @@ def draw(scene, **options):
 
 def camera_of(scene):
     camera, pose = e3d.frame_scene(scene)
-    return camera.projection(*SIZE), pose
+    return camera.projection(SIZE), pose
 
 
 QUESTIONS = {
@@ -116,7 +116,7 @@ def test_threads_that_ask_different_things_at_once():
 
 def test_kept_renderers_after_a_change():
     """Several renderers, a thread each, of a scene that changes between their frames."""
-    renderers = [Renderer(*SIZE, threads=1) for _ in range(THREADS)]
+    renderers = [Renderer(SIZE, threads=1) for _ in range(THREADS)]
     scene = fresh_scene()
     for step in range(20):
         crowd, mesh = scene.find("crowd").object, scene.nodes[0].object

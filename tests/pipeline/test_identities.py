@@ -58,7 +58,7 @@ def expected(scene):
     """What the reference draws along with colours, by samples per pixel and eye."""
     frames = {}
     for samples in (1, 4, 16):
-        with Renderer(*SIZE, backend="scalar", samples=samples) as renderer:
+        with Renderer(SIZE, backend="scalar", samples=samples) as renderer:
             for eye in EYES if samples == 1 else EYES[:1]:
                 frame = draw(renderer, scene, eye, ("color", "barycentric", *OUTPUTS))
                 frames[samples, eye] = {name: getattr(frame, name) for name in OUTPUTS}
@@ -84,7 +84,7 @@ def test_the_scene_has_what_it_is_to_have(expected):
 @pytest.mark.parametrize("backend", e3d.backends())
 def test_same_ids_alone(scene, expected, backend, threads):
     for samples, eye in expected if backend != "scalar" else [(1, EYES[0]), (4, EYES[0])]:
-        with Renderer(*SIZE, backend=backend, threads=threads, samples=samples) as renderer:
+        with Renderer(SIZE, backend=backend, threads=threads, samples=samples) as renderer:
             for names in ASKED:
                 frame = draw(renderer, scene, eye, names, culling="none")
                 assert_same(frame, expected[samples, eye], names)
@@ -93,7 +93,7 @@ def test_same_ids_alone(scene, expected, backend, threads):
 @pytest.mark.parametrize("threads", [1, 3])
 def test_same_ids_in_rounds(scene, expected, threads):
     """Tiles that another round adds to are written twice."""
-    with Renderer(*SIZE, threads=threads) as renderer:
+    with Renderer(SIZE, threads=threads) as renderer:
         for eye in EYES * 2:
             for names in ASKED:
                 frame = draw(renderer, scene, eye, names, culling="always")
@@ -108,11 +108,11 @@ def test_large_triangles(samples):
     for place in ((0, 0, 0), (1.2, 0.4, -1), (-1, -0.5, 0.5)):
         scene.add(e3d.box(), translation=place)
     eye = (1.0, 1.5, 3.0)
-    with Renderer(*SIZE, backend="scalar", samples=samples) as renderer:
+    with Renderer(SIZE, backend="scalar", samples=samples) as renderer:
         frame = draw(renderer, scene, eye, ("color", *OUTPUTS))
         wanted = {name: getattr(frame, name) for name in OUTPUTS}
     for backend in e3d.backends():
-        with Renderer(*SIZE, backend=backend, threads=2, samples=samples) as renderer:
+        with Renderer(SIZE, backend=backend, threads=2, samples=samples) as renderer:
             for names in ASKED:
                 assert_same(draw(renderer, scene, eye, names), wanted, names)
 
@@ -126,7 +126,7 @@ def test_two_triangles_that_meet_between_blocks(backend):
     for k in range(8):
         scene.add(e3d.primitives.quad(), translation=(0, 0, -1 - k), scale=128)  # behind them
     camera = e3d.OrthographicCamera(64), e3d.look_at((0, 0, 5), (0, 0, 0))
-    with Renderer(128, 128, backend=backend) as renderer:
+    with Renderer((128, 128), backend=backend) as renderer:
         frame = renderer.render(scene, camera, outputs=IDS, cull="none", culling="always")
     assert (frame.face_id == np.where(np.arange(128) < 48, 0, 1)).all()
     assert (frame.object_id == 0).all()
@@ -136,7 +136,7 @@ def test_two_triangles_that_meet_between_blocks(backend):
 @pytest.mark.parametrize("mode", ["lit", "overdraw"])
 def test_how_they_are_found_does_not_show(scene, mode, hidden_surfaces):
     """Where the last triangle in order shows they are shaded; samples are counted alike."""
-    with Renderer(*SIZE) as renderer:
+    with Renderer(SIZE) as renderer:
         options = {"mode": mode, "hidden_surfaces": hidden_surfaces, "culling": "none"}
         full = draw(renderer, scene, EYES[0], ("color", "barycentric", *IDS), **options)
         alone = draw(renderer, scene, EYES[0], IDS, shading="forward", **options)

@@ -27,7 +27,7 @@ def long_frame():
     scene = e3d.Scene()
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.5, (64, 32)), poses))
     camera = e3d.OrthographicCamera(0.2, znear=-9, zfar=9), np.eye(4)
-    renderer = e3d.Renderer(2048, 2048, threads=2, backend="portable")
+    renderer = e3d.Renderer((2048, 2048), threads=2, backend="portable")
     return renderer, lambda: renderer.render(scene, camera, hidden_surfaces="painter")
 
 def every(seconds, handler):
@@ -74,7 +74,7 @@ def handler(*_):
     change(scene, told[0])
     depth[0] -= 1
 
-renderer = e3d.Renderer(*SIZE, threads=1)
+renderer = e3d.Renderer(SIZE, threads=1)
 every(0.0007, handler)
 end, step = time.monotonic() + 2, 0
 while time.monotonic() < end:
@@ -111,7 +111,7 @@ expected, seen = small_frame(other), []
 
 def handler(*_):
     no_more()
-    for act in (draw, lambda: renderer.resize(8, 8), renderer.close):
+    for act in (draw, lambda: renderer.resize((8, 8)), renderer.close):
         try:
             act()
         except e3d.errors.RendererBusyError as error:
@@ -143,7 +143,7 @@ if not child:
         scene = e3d.Scene()
         scene.add(e3d.box())
         assert small_frame(scene).any()
-        with e3d.Renderer(*SIZE, threads=2) as fresh:
+        with e3d.Renderer(SIZE, threads=2) as fresh:
             fresh.render(scene)
         os._exit(0)
     os._exit(1)
@@ -168,7 +168,7 @@ except e3d.errors.RendererBusyError as error:
     assert children == [0] and "forked" in str(error)
     scene = e3d.Scene()
     scene.add(e3d.box())
-    with e3d.Renderer(*SIZE, threads=2) as fresh:
+    with e3d.Renderer(SIZE, threads=2) as fresh:
         assert fresh.render(scene).color.any()
     os._exit(0)
 assert children[0] > 0 and os.waitpid(children[0], 0)[1] == 0

@@ -64,7 +64,7 @@ def live_once(number, threads=1):
     if number % 3 == 0:
         scene.add(e3d.InstancedMesh(mesh, [[1, 0, 0, 0.5], [-1, 0, 0, 0.5]]))
         scene.add(e3d.PointLight(), translation=(1, 1, 1))
-    with Renderer(9, 7, threads=threads, samples=4 if number % 5 == 0 else 1) as renderer:
+    with Renderer((9, 7), threads=threads, samples=4 if number % 5 == 0 else 1) as renderer:
         frame = renderer.render(scene, (CAMERA, POSE), **OPTIONS[number % len(OPTIONS)])
     return frame
 
@@ -112,7 +112,7 @@ def test_renderers_that_die_in_threads_leave_nothing():
 
     def live(rounds):
         for _ in range(rounds):
-            renderers = [Renderer(9, 7, threads=2) for _ in range(4)]
+            renderers = [Renderer((9, 7), threads=2) for _ in range(4)]
             threads = [threading.Thread(target=live_in_a_thread, args=(r,)) for r in renderers]
             del renderers
             for thread in threads:
@@ -126,14 +126,14 @@ def test_renderers_that_die_in_threads_leave_nothing():
 
 def test_a_renderer_that_changes_forever_keeps_nothing():
     """One renderer, one scene: sizes, scenes' contents and arrays that come and go."""
-    renderer = Renderer(9, 7, threads=1)
+    renderer = Renderer((9, 7), threads=1)
     scene = e3d.Scene()
 
     def live(rounds):
         for number in range(rounds):
             mesh = e3d.Mesh(POSITIONS, FACES, uvs=UVS)
             node = scene.add(mesh)
-            renderer.resize(5 + number % 7, 5 + number % 11)
+            renderer.resize((5 + number % 7, 5 + number % 11))
             renderer.render(scene, (CAMERA, POSE), **OPTIONS[number % len(OPTIONS)])
             mesh.positions = POSITIONS * 2
             mesh.materials[0].texture = e3d.Texture(PIXELS)
@@ -176,7 +176,7 @@ def test_what_is_replaced_each_frame_is_let_go(replace):
             scene.raycast((0, 0, 5), (0, 0, -1))
             assert scene.bounds.shape == (2, 3)
 
-    with Renderer(32, 24, threads=1) as renderer:
+    with Renderer((32, 24), threads=1) as renderer:
         live(20)
         gc.collect()
         assert len(alive) <= 2
@@ -227,7 +227,7 @@ def test_steady_frames_take_no_memory(threads):
         for frame in range(frames):
             renderer.render(scene, (CAMERA, views[frame % len(views)]), outputs=outputs)
 
-    with Renderer(320, 180, threads=threads) as renderer:
+    with Renderer((320, 180), threads=threads) as renderer:
         draw(renderer, 50)
         faults = []
         for _ in range(ATTEMPTS):

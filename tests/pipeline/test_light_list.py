@@ -48,12 +48,12 @@ CHANGES = {
 def test_as_a_new_renderer_sees_them():
     scene, *nodes = lit_scene()
     before = None
-    with Renderer(48, 32, threads=1) as renderer:
+    with Renderer((48, 32), threads=1) as renderer:
         for name, change in CHANGES.items():
             renderer.render(scene, CAMERA)
             change(scene, *nodes)
             frame = renderer.render(scene, CAMERA).color
-            with Renderer(48, 32, threads=1) as other:
+            with Renderer((48, 32), threads=1) as other:
                 np.testing.assert_array_equal(frame, other.render(scene, CAMERA).color, name)
             if name != "pack":
                 assert before is None or (frame != before).any(), f"{name}: nothing changed"
@@ -63,7 +63,7 @@ def test_as_a_new_renderer_sees_them():
 def test_after_an_error():
     """A lamp that cannot be drawn stops every frame until it can, and then all is as it is now."""
     scene, group, lamps, _ = lit_scene()
-    with Renderer(48, 32, threads=1) as renderer:
+    with Renderer((48, 32), threads=1) as renderer:
         renderer.render(scene, CAMERA)
         lamps[0].object.falloff = "window"
         for _ in range(2):
@@ -72,5 +72,5 @@ def test_after_an_error():
         group.translation = (0.5, 0, 0)
         lamps[0].object.range = 6.0
         frame = renderer.render(scene, CAMERA).color
-    with Renderer(48, 32, threads=1) as other:
+    with Renderer((48, 32), threads=1) as other:
         np.testing.assert_array_equal(frame, other.render(scene, CAMERA).color)

@@ -24,7 +24,7 @@ def line_at(angle):
 def area(angle, width, samples=1, backend="auto"):
     """The pixels that it covers, by their brightness in linear light."""
     scene, view = line_at(angle)
-    with Renderer(SIZE, SIZE, samples=samples, color_space="linear", backend=backend) as renderer:
+    with Renderer((SIZE, SIZE), samples=samples, color_space="linear", backend=backend) as renderer:
         frame = renderer.render(scene, view, mode="unlit", line_width=width)
     return frame.color[..., 0].sum() / 255.0
 

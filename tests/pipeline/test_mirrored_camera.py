@@ -63,6 +63,6 @@ def test_picking_finds_what_shows(outputs):
                 hit, number = scene.pick(frame, x, y), shown.object_id[y, x]
                 assert (hit is None) == (number < 0), (x, y)
                 if hit is not None:
-                    assert (hit.node.id, hit.face) == (number, shown.face_id[y, x])
+                    assert (hit.node.id, hit.face_id) == (number, shown.face_id[y, x])
                     picked += 1
         assert picked > 20

@@ -32,7 +32,7 @@ def cameras(random, count, spread=50.0):
         else:
             camera = e3d.PerspectiveCamera(random.uniform(0.2, 2), znear=0.5, zfar=80)
         pose = e3d.look_at(eye, target)
-        yield linalg.multiply(camera.projection(640, 360), linalg.inverse(pose))
+        yield linalg.multiply(camera.projection((640, 360)), linalg.inverse(pose))
 
 
 def distances_beyond(boxes, clip_from_world):
@@ -163,7 +163,7 @@ def test_pictures_are_those_without_culling(options, perspective):
     outputs = ("color", "object_id", "face_id", "ndc_depth")
     pictures, draws = [], []
     for culling in ("tree", "frustum", "none"):
-        with Renderer(90, 70) as renderer:
+        with Renderer((90, 70)) as renderer:
             frame = renderer.render(scene, camera, outputs=outputs, culling=culling, **options)
         pictures.append([getattr(frame, name).tobytes() for name in outputs])
         draws.append(frame.stats["nodes_in_frustum"])
@@ -212,7 +212,7 @@ def test_instances_that_do_not_show_are_left_out(kind, backend):
     scene.add(instances, rotation=(0.3, 0.1, 0.5, 0.8), translation=(0.2, 0, 0), scale=(1, 2, -0.5))
     scene.add(e3d.box((0.1, 3, 0.1)))
     outputs = ("color", "object_id", "instance_id", "face_id", "ndc_depth")
-    with Renderer(60, 40, backend=backend) as renderer:
+    with Renderer((60, 40), backend=backend) as renderer:
         for k in range(8):
             eye = (3 * math.sin(k), 1, 3 * math.cos(k))
             camera = e3d.PerspectiveCamera(0.7, znear=0.1, zfar=4), e3d.look_at(eye, (0, k, 0))
@@ -243,7 +243,7 @@ def test_boxes_tested_tell_the_tree_from_testing_one_by_one():
     scene.add(e3d.PointLight(), translation=(0, 3, 0))
     view = e3d.PerspectiveCamera(0.5, znear=0.1, zfar=20), e3d.look_at((7000, 0, 9), (7000, 0, 0))
     counts = {}
-    with Renderer(60, 40) as renderer:
+    with Renderer((60, 40)) as renderer:
         for culling in ("none", "frustum", "tree", "all"):
             counts[culling] = renderer.render(scene, view, culling=culling).stats
             again = renderer.render(scene, view, culling=culling).stats  # where nothing changed

@@ -39,7 +39,7 @@ def test_outputs_do_not_depend_on_each_other(scene, mode, distance):
     camera = e3d.PerspectiveCamera(), e3d.linalg.translation((0.0, 0.0, distance))
     sets = [(name,) for name in OUTPUTS]
     sets += [(name, other) for name in ("color", "radiance") for other in OUTPUTS if other != name]
-    with Renderer(*SIZE, threads=1) as renderer:
+    with Renderer(SIZE, threads=1) as renderer:
         whole = renderer.render(scene, camera, mode=mode, outputs=OUTPUTS)
         for outputs in sets:
             frame = renderer.render(scene, camera, mode=mode, outputs=outputs)

@@ -80,7 +80,7 @@ def check(renderer, scene, scene_facts, **options):
 
 @pytest.fixture(scope="module")
 def renderer():
-    return Renderer(16, 16, threads=1)
+    return Renderer((16, 16), threads=1)
 
 
 @pytest.mark.parametrize("wireframe", [None, "overlay", "only"])
@@ -140,5 +140,5 @@ def test_what_another_camera_holds_is_drawn_without_rounds(renderer):
 
 
 def test_the_reference_has_no_plan():
-    frame = Renderer(16, 16, backend="scalar").render(scene_of())
+    frame = Renderer((16, 16), backend="scalar").render(scene_of())
     assert frame.stats["plan"] == ()

@@ -17,7 +17,7 @@ SIZE = 32
 
 @pytest.fixture(params=BACKENDS)
 def renderer(request):
-    return Renderer(SIZE, SIZE, backend=request.param, threads=2)
+    return Renderer((SIZE, SIZE), backend=request.param, threads=2)
 
 
 @pytest.fixture
@@ -108,7 +108,7 @@ BAD_OUTPUTS = (), (None,), (1,), ([],), (np.array(["a", "b"]),), (np.array(["col
 @pytest.mark.parametrize("outputs", BAD_OUTPUTS, ids=repr)
 def test_outputs_that_are_no_names_are_refused_by_every_frame(front, outputs):
     scene = scene_of(square())
-    with Renderer(SIZE, SIZE) as renderer:
+    with Renderer((SIZE, SIZE)) as renderer:
         for _ in range(2):
             with pytest.raises(e3d.InvalidArgumentError, match="outputs"):
                 renderer.render(scene, front, outputs=outputs)
@@ -117,11 +117,11 @@ def test_outputs_that_are_no_names_are_refused_by_every_frame(front, outputs):
 
 def test_outputs_may_change_between_frames_and_so_may_their_size(front):
     scene, names = scene_of(square()), ["depth"]
-    with Renderer(SIZE, SIZE) as renderer:
+    with Renderer((SIZE, SIZE)) as renderer:
         renderer.render(scene, front, outputs=names)
         names[0] = "uv"
         assert renderer.render(scene, front, outputs=names).uv.shape == (SIZE, SIZE, 2)
-        renderer.resize(SIZE, 2 * SIZE)
+        renderer.resize((SIZE, 2 * SIZE))
         assert renderer.render(scene, front).color.shape[:2] == (2 * SIZE, SIZE)
 
 
@@ -155,9 +155,11 @@ def test_stats(renderer, front):
 def test_rasterize_agrees_with_the_renderer(backend, front):
     mesh = e3d.uv_sphere(1.2, (12, 7))
     camera, pose = front
-    clip_from_world = linalg.multiply(camera.projection(SIZE, SIZE), linalg.inverse(pose))
+    clip_from_world = linalg.multiply(camera.projection((SIZE, SIZE)), linalg.inverse(pose))
     clip = np.c_[mesh.positions, np.ones(len(mesh.positions))] @ clip_from_world.T
-    result = e3d.rasterization.rasterize(clip, mesh.faces, SIZE, SIZE, cull="back", backend=backend)
+    result = e3d.rasterization.rasterize(
+        clip, mesh.faces, (SIZE, SIZE), cull="back", backend=backend
+    )
     frame = render(scene_of(mesh), front, size=(SIZE, SIZE), backend=backend, outputs=("face_id",))
     np.testing.assert_array_equal(result.face_id, frame.face_id)
     assert np.isposinf(result.depth[result.face_id < 0]).all()
@@ -169,7 +171,7 @@ def test_rasterize_agrees_with_the_renderer(backend, front):
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("color_space", ["srgb", "linear"])
 def test_background_is_the_same_in_each_mode(mode, color_space):
-    renderer = Renderer(4, 4, color_space=color_space)
+    renderer = Renderer((4, 4), color_space=color_space)
     frame = renderer.render(e3d.Scene(background=(10, 128, 250)), mode=mode)
     assert (frame.color == (10, 128, 250, 255)).all()
 
@@ -183,7 +185,7 @@ def test_no_background_is_transparent(renderer, front):
 @pytest.mark.parametrize("color_space", ["srgb", "linear"])
 def test_8_bit_colours_come_back(front, color_space):
     mesh = square(materials=[e3d.Material(color=(200, 100, 3))])
-    renderer = Renderer(SIZE, SIZE, color_space=color_space)
+    renderer = Renderer((SIZE, SIZE), color_space=color_space)
     frame = renderer.render(scene_of(mesh), front, mode="unlit")
     assert (frame.color[16, 16] == (200, 100, 3, 255)).all()
 
@@ -194,7 +196,7 @@ def test_an_unlit_texture_at_its_size_gives_its_bytes(renderer, front, color_spa
     pixels = np.random.default_rng(1).integers(0, 256, (16, 16, 3), np.uint8)
     texture = e3d.Texture(pixels, filter=filter)
     mesh = square(materials=[e3d.Material(texture=texture)])
-    renderer = Renderer(SIZE, SIZE, backend=renderer.backend, color_space=color_space)
+    renderer = Renderer((SIZE, SIZE), backend=renderer.backend, color_space=color_space)
     frame = renderer.render(scene_of(mesh), front, mode="unlit")
     np.testing.assert_array_equal(frame.color[8:24, 8:24, :3], pixels)
 
@@ -220,7 +222,7 @@ def test_instance_colours(renderer, front):
 
 
 def lit_pixel(scene, front, **options):
-    renderer = Renderer(SIZE, SIZE, color_space="linear")
+    renderer = Renderer((SIZE, SIZE), color_space="linear")
     return renderer.render(scene, front, **options).color[16, 16, :3].tolist()
 
 
@@ -512,7 +514,7 @@ def test_a_change_shows_in_the_next_frame(renderer, front, change):
     change(scene, mesh, material, texture)
     after = renderer.render(scene, front).color
     assert not np.array_equal(after, before)
-    fresh = Renderer(SIZE, SIZE, backend=renderer.backend).render(scene, front).color
+    fresh = Renderer((SIZE, SIZE), backend=renderer.backend).render(scene, front).color
     np.testing.assert_array_equal(after, fresh)
 
 
@@ -570,7 +572,7 @@ def test_out_draws_into_an_earlier_frame(renderer, front):
 
 def test_resize(renderer, front):
     before = renderer.render(scene_of(square()), front)
-    renderer.resize(7, 3)
+    renderer.resize((7, 3))
     frame = renderer.render(scene_of(square()), front)
     assert frame.color.shape == (3, 7, 4)
     assert before.color.shape == (SIZE, SIZE, 4)

@@ -52,7 +52,7 @@ def test_every_pixel_is_written(backend, samples, size):
         scene, (camera, np.eye(4)), size=size, backend="scalar", outputs=names, **settings
     )
     for threads in (1, 2):
-        renderer = Renderer(*size, backend=backend, threads=threads, **settings)
+        renderer = Renderer(size, backend=backend, threads=threads, **settings)
         for outputs in OUTPUTS:
             frame = renderer.render(scene, (camera, np.eye(4)), outputs=outputs)
             for name in outputs:

@@ -33,7 +33,7 @@ def drawn(renderer, scene, eye, **options):
 
 def test_two_cameras_in_turn_leave_out_what_two_renderers_do():
     scene, front, back = wall_between_crowds(), eye_at(8), eye_at(-8)
-    together, one, other = (Renderer(320, 240, threads=1) for _ in range(3))
+    together, one, other = (Renderer((320, 240), threads=1) for _ in range(3))
     depth = {"outputs": ("ndc_depth",)}
     for frame in range(8):
         in_turn = drawn(together, scene, front, **depth), drawn(together, scene, back)
@@ -46,7 +46,7 @@ def test_two_cameras_in_turn_leave_out_what_two_renderers_do():
 
 def test_a_new_camera_each_frame_begins_with_what_the_last_one_saw():
     scene, kept = wall_between_crowds(), eye_at(8)
-    fresh, steady = Renderer(320, 240, threads=1), Renderer(320, 240, threads=1)
+    fresh, steady = Renderer((320, 240), threads=1), Renderer((320, 240), threads=1)
     cameras = []
     for _ in range(12):  # more than the renderer remembers
         cameras.append(eye_at(8))

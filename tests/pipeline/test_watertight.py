@@ -73,8 +73,8 @@ def test_random_meshes(backend, seed):
     split(rng, points, faces, 400)
     clip = clip_of(rng, points)
     faces = rng.permutation(np.array(faces))
-    forward = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
-    backward = e3d.rasterization.rasterize(clip, faces[::-1], SIZE, SIZE, backend=backend)
+    forward = e3d.rasterization.rasterize(clip, faces, (SIZE, SIZE), backend=backend)
+    backward = e3d.rasterization.rasterize(clip, faces[::-1], (SIZE, SIZE), backend=backend)
     assert (forward.face_id >= 0).all(), "holes"
     assert (forward.depth == 0).all()
     assert np.array_equal(forward.face_id, len(faces) - 1 - backward.face_id), "twice"
@@ -89,8 +89,8 @@ def test_order_of_vertices(backend, order):
     clip = clip_of(rng, corners.reshape(-1, 2))
     clip[:, 2] = np.repeat(rng.permutation(150) / 200, 3).astype(np.float32) * clip[:, 3]
     faces = np.arange(450).reshape(-1, 3)
-    plain = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
-    turned = e3d.rasterization.rasterize(clip, faces[:, order], SIZE, SIZE, backend=backend)
+    plain = e3d.rasterization.rasterize(clip, faces, (SIZE, SIZE), backend=backend)
+    turned = e3d.rasterization.rasterize(clip, faces[:, order], (SIZE, SIZE), backend=backend)
     assert np.array_equal(plain.face_id, turned.face_id)
 
 
@@ -110,7 +110,7 @@ def test_from_inside_a_closed_mesh(backend, mesh):
     one = layers_color(1, backend)
     scene = e3d.Scene()
     scene.add(mesh)
-    with Renderer(97, 61, backend=backend, threads=2) as renderer:
+    with Renderer((97, 61), backend=backend, threads=2) as renderer:
         for k in range(12):
             angle = 0.55 * k
             target = (math.cos(angle), 0.7 * math.sin(3 * angle), math.sin(angle))

@@ -57,7 +57,7 @@ def player():
 
 def sample():
     shown = scene()
-    renderer = e3d.Renderer(*SIZE, threads=1)
+    renderer = e3d.Renderer(SIZE, threads=1)
     outputs = ("color", "depth", "object_id")
     lens, pose = camera()
     frame = renderer.render(shown, (lens, pose), outputs=outputs)
@@ -83,7 +83,7 @@ def written():
 
 
 def window():
-    return e3d.Window(64, 48)
+    return e3d.Window((64, 48))
 
 
 @functools.cache
@@ -116,7 +116,7 @@ OWNERS: dict[str, Callable[[], Any]] = {
     "NavigationGrid": functools.cache(ground),
     "Node": lambda: scene().nodes[0],
     "NodeSelection": lambda: scene().select(),
-    "Renderer": lambda: e3d.Renderer(*SIZE, threads=1),
+    "Renderer": lambda: e3d.Renderer(SIZE, threads=1),
     "Sample": sample,
     "Scene": lit_scene,
     "Sheet": sheet,

@@ -195,7 +195,7 @@ def overlap(shown):
 
 
 def on_canvas(name, **given):
-    return lambda **arguments: getattr(e3d.Canvas(20, 20), name)(**{**given, **arguments})
+    return lambda **arguments: getattr(e3d.Canvas((20, 20)), name)(**{**given, **arguments})
 
 
 def ground():
@@ -374,11 +374,11 @@ CALLS = {
     ),
     "Renderer": (
         lambda **a: Renderer(**a).render(scene()),
-        {"width": 8, "height": 8, "threads": 1, "samples": 1},
+        {"size": (8, 8), "threads": 1, "samples": 1},
     ),
     "Renderer.resize": (
-        lambda **a: Renderer(*SIZE, threads=1).resize(**a),
-        {"width": 8, "height": 8},
+        lambda **a: Renderer(SIZE, threads=1).resize(**a),
+        {"size": (8, 8)},
     ),
     "Frame.encode": (lambda **a: draw().encode(**a), {"format": "png"}),
     "look_at": (e3d.look_at, {"eye": (0, 0, 5), "target": (0, 0, 0), "up": (0, 1, 0)}),
@@ -411,7 +411,7 @@ CALLS = {
     ),
     "rasterize": (
         e3d.rasterization.rasterize,
-        {"clip": np.zeros((3, 4)), "faces": [[0, 1, 2]], "width": 8, "height": 8, "threads": 1},
+        {"clip": np.zeros((3, 4)), "faces": [[0, 1, 2]], "size": (8, 8), "threads": 1},
     ),
     "box": (e3d.box, {"size": (1, 1, 1)}),
     "quad": (e3d.primitives.quad, {"p0": (-1, -1, 0), "p2": (1, 1, 0)}),
@@ -461,7 +461,7 @@ CALLS = {
         {"error": 0.1, "pixels": 1.0, "hysteresis": 0.3},
     ),
     "Impostor": (lambda **a: e3d.detail.Impostor(mesh(), **a), {"views": 2, "texels": 8}),
-    "Canvas": (lambda width, height: e3d.Canvas(width, height), {"width": 4, "height": 4}),
+    "Canvas": (lambda **a: e3d.Canvas(**a), {"size": (4, 4)}),
     "Canvas.point": (on_canvas("point"), {"x": 1, "y": 1, "color": (1, 2, 3)}),
     "Canvas.points": (on_canvas("points"), {"xy": [(1, 1)], "color": (1, 2, 3)}),
     "Canvas.line": (

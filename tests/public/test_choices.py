@@ -28,7 +28,7 @@ ACCEPTED = {
     "Backend": ["auto", *native.BACKENDS],
     "ColorSpace": colors.COLOR_SPACES,
     "Samples": {samples for numbers in _SAMPLES.values() for samples in numbers},
-    "Antialias": _SAMPLES,
+    "Antialiasing": _SAMPLES,
     "Mode": native.MODES,
     # The other outputs are shown by modes: colours by those that colour, both depths by "depth".
     "OutputMode": {*frame.OUTPUTS} - {*native.MODES, "color", "ndc_depth"},

@@ -76,13 +76,13 @@ COPIED = {
     "Walker": lambda: e3d.navigation.Walker(
         e3d.navigation.NavigationGrid(e3d.plane((4, 4))), 0.0, 0.0
     ),
-    "Canvas": lambda: e3d.Canvas(4, 3),
+    "Canvas": lambda: e3d.Canvas((4, 3)),
     "Frame": frame,
     "ResourceStats": lambda: e3d.resources.Resources().stats,
     "Resource": lambda: resource(),
     "RayHits": lambda: drawn().raycast_many((0, 0, 5), (0, 0, -1)),
     "RasterizeResult": lambda: e3d.rasterization.rasterize(
-        np.zeros((3, 4), np.float32), [[0, 1, 2]], 4, 4
+        np.zeros((3, 4), np.float32), [[0, 1, 2]], (4, 4)
     ),
     "RenderOptions": lambda: e3d.RenderOptions(line_color=(1, 2, 3)),
     "Look": e3d.Look.studio,
@@ -104,9 +104,9 @@ REFUSED = {
     ),
     "AnimationClip": lambda: e3d.motion.AnimationClip([moved()]),
     "AnimationPlayer": lambda: e3d.AnimationPlayer(drawn()),
-    "Renderer": lambda: e3d.Renderer(4, 4),
+    "Renderer": lambda: e3d.Renderer((4, 4)),
     "Resources": e3d.resources.Resources,
-    "Window": lambda: e3d.Window(64, 48),
+    "Window": lambda: e3d.Window((64, 48)),
 }
 WITH_NODES = {"RayHit", "ColliderHit"}  # tuples: what holds for their nodes holds for them
 #: Their arrays are the caller's.

@@ -67,7 +67,7 @@ def test_every_method_that_changes_is_checked():
 )
 def test_a_change_that_faces_do_not_bear_changes_nothing(change):
     scene, mesh = two_squares()
-    with e3d.Renderer(8, 8) as renderer:
+    with e3d.Renderer((8, 8)) as renderer:
         before = colors(renderer, scene)
         with pytest.raises(e3d.errors.InvalidArgumentError, match=r"(?i)material"):
             change(mesh.materials)
@@ -84,7 +84,7 @@ def test_the_error_names_mesh_and_index():
 
 def test_materials_that_are_changed_in_place_are_drawn():
     scene, mesh = two_squares()
-    with e3d.Renderer(8, 8) as renderer:
+    with e3d.Renderer((8, 8)) as renderer:
         for change, expected in (
             (lambda m: m.reverse(), ([255, 0, 0], [0, 255, 0])),
             (lambda m: m.append(BLUE), ([255, 0, 0], [0, 255, 0])),
@@ -99,7 +99,7 @@ def test_materials_that_are_changed_in_place_are_drawn():
             assert mesh.version > version
             seen = colors(renderer, scene)
             assert expected in (None, seen)
-            assert seen == colors(e3d.Renderer(8, 8), scene)
+            assert seen == colors(e3d.Renderer((8, 8)), scene)
         mesh.material_ids = np.zeros(4, int)
         mesh.materials.pop()
         assert colors(renderer, scene) == ([0, 0, 255], [0, 0, 255])

@@ -92,9 +92,10 @@ MISTAKES = [
     (lambda: e3d.render(scene(), (camera()[0], np.full((4, 4), math.nan))), "finite"),
     # wrong values
     (lambda: added(rotation=(0.1, 0, 0)), "euler="),
-    (lambda: e3d.Renderer(8, 8, samples=8, antialiasing="ssaa"), "needs antialiasing='msaa'"),
+    (lambda: e3d.Renderer((8, 8), samples=8, antialiasing="ssaa"), "needs antialiasing='msaa'"),
     (lambda: e3d.uv_sphere(segments=12), "two integers, not 12"),
-    (lambda: e3d.Renderer(8, 8).render(5), "a mesh or points can be drawn, not int"),
+    (lambda: e3d.Renderer(8), "size must be (width, height), not 8"),
+    (lambda: e3d.Renderer((8, 8)).render(5), "a mesh or points can be drawn, not int"),
     (lambda: e3d.Scene().add("model.obj"), "'model.obj'"),
     (lambda: e3d.Scene().add(mesh(), name=5), "name must be a str, not 5"),
     (assign(node, "visible", "no"), "visible must be True or False, not 'no'"),
@@ -110,7 +111,7 @@ MISTAKES = [
     (lambda: e3d.render(e3d.Scene(background=None), size=SIZE).encode("jpeg"), "transparency"),
     (lambda: e3d.datasets.random_camera(1, scene()), "generator must be a Generator, not 1"),
     (lambda: e3d.batch.run(["a.obj"], "out"), "Task"),
-    (lambda: e3d.Canvas(9, 9).triangle(1, 2, 3, (1, 2, 3)), "a must be (x, y), not 1"),
+    (lambda: e3d.Canvas((9, 9)).triangle(1, 2, 3, (1, 2, 3)), "a must be (x, y), not 1"),
 ]
 
 

@@ -14,7 +14,7 @@ SIZE = (320, 240)
 
 def visible(scene, camera, size=SIZE, radius=None, **options):
     """What of white ambient light each pixel shows: its red in linear light, 8 bits."""
-    with Renderer(*size, color_space="linear") as renderer:
+    with Renderer(size, color_space="linear") as renderer:
         frame = renderer.render(
             scene, camera, ambient_occlusion=True, ambient_occlusion_radius=radius, **options
         )
@@ -52,7 +52,7 @@ def test_what_is_flat_gets_all_light(name, axis):
     camera, pose = CAMERAS[name]
     for turn in (0.0, 0.3, 1.1):
         turned = linalg.rotation_y(turn) @ linalg.rotation_x(0.2 * turn) @ pose
-        with Renderer(*SIZE) as renderer:
+        with Renderer(SIZE) as renderer:
             depth = renderer.render(scene, (camera, turned), outputs=("depth",)).depth
         shown = visible(scene, (camera, turned), radius=0.7)
         inside = depth != 0.0
@@ -79,7 +79,7 @@ def hidden_by_wall(distance, height, radius, rays=100_000):
 @pytest.mark.parametrize("radius", [0.25, 0.5])
 def test_a_corner_is_as_dark_as_the_integral(name, radius):
     scene = corner()
-    with Renderer(640, 480) as renderer:
+    with Renderer((640, 480)) as renderer:
         outputs = ("world_position", "world_normal")
         frame = renderer.render(scene, CAMERAS[name], outputs=outputs)
     shown = visible(scene, CAMERAS[name], (640, 480), radius)[:, 320] / 255.0
@@ -161,7 +161,7 @@ def test_the_same_for_all_samples_culling_and_batching():
     scene = corner()
     scene.add(e3d.box(0.4), translation=(0.3, 0.2, 0.4))
     options = e3d.RenderOptions(ambient_occlusion=True)
-    with Renderer(120, 90, samples=4) as renderer:
+    with Renderer((120, 90), samples=4) as renderer:
         first = renderer.render(scene, CAMERAS["perspective"], options=options).color.tobytes()
         for other in ({"culling": "none"}, {"batching": False}, {"shading": "forward"}):
             changed = dataclasses.replace(options, **other)

@@ -20,14 +20,14 @@ def test_backends_start_with_those_that_always_run():
 
 def test_auto_is_the_best():
     assert resolve_backend() == rasterizer.best_backend()
-    assert e3d.Renderer(1, 1).backend == e3d.backends()[-1]
+    assert e3d.Renderer((1, 1)).backend == e3d.backends()[-1]
 
 
 @pytest.mark.parametrize("name", ["scalar", "portable"])
 def test_environment_says_what_auto_means(monkeypatch, name):
     monkeypatch.setenv("ENGINE3D_BACKEND", name)
-    assert e3d.Renderer(1, 1).backend == name
-    assert e3d.Renderer(1, 1, backend="portable").backend == "portable"
+    assert e3d.Renderer((1, 1)).backend == name
+    assert e3d.Renderer((1, 1), backend="portable").backend == "portable"
 
 
 @pytest.mark.parametrize("name", ["mmx", "", None, 3, "AVX2"])
@@ -39,7 +39,7 @@ def test_unknown_backend(name):
 def test_unknown_backend_in_the_environment(monkeypatch):
     monkeypatch.setenv("ENGINE3D_BACKEND", "mmx")
     with pytest.raises(e3d.errors.BackendError, match="ENGINE3D_BACKEND='mmx'"):
-        e3d.Renderer(1, 1)
+        e3d.Renderer((1, 1))
 
 
 def test_backend_that_the_machine_lacks(monkeypatch):

@@ -19,12 +19,12 @@ def frame():
     color[..., 3] = 255
     color[0, 0] = (255, 0, 0, 255)
     color[2, 4] = (0, 255, 0, 255)
-    return e3d.Frame(5, 3, {"color": color})
+    return e3d.Frame((5, 3), {"color": color})
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
 def test_missing_output_names_the_argument(name):
-    empty = e3d.Frame(5, 3, {})
+    empty = e3d.Frame((5, 3), {})
     with pytest.raises(e3d.errors.MissingOutputError) as caught:
         getattr(empty, name)
     assert f'outputs=("{name}",)' in str(caught.value)
@@ -120,11 +120,11 @@ def test_what_is_no_path(frame, path):
 
 def test_saving_without_colour(tmp_path):
     with pytest.raises(e3d.errors.MissingOutputError):
-        e3d.Frame(5, 3, {}).save(tmp_path / "frame.png")
+        e3d.Frame((5, 3), {}).save(tmp_path / "frame.png")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_notebook_picture(frame):
     data = frame._repr_png_()
     np.testing.assert_array_equal(np.asarray(Image.open(io.BytesIO(data))), frame.color)
-    assert e3d.Frame(5, 3, {})._repr_png_() is None
+    assert e3d.Frame((5, 3), {})._repr_png_() is None

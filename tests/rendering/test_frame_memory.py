@@ -81,12 +81,12 @@ def test_maps_of_shadows_are_counted(case, monkeypatch):
     r = random.Random(case)
     kinds = [r.choice(list(LIGHTS)) for _ in range(r.randint(1, 4))]
     sizes = [r.choice((32, 64, 100, 256)) for _ in kinds]
-    lights = [LIGHTS[k](shadow=True, shadow_map_size=s) for k, s in zip(kinds, sizes, strict=True)]
-    with Renderer(16, 16) as renderer:
+    lights = [LIGHTS[k](shadow="map", shadow_map_size=s) for k, s in zip(kinds, sizes, strict=True)]
+    with Renderer((16, 16)) as renderer:
         frame = renderer.render(scene_of(lights))
         maps = maps_of(renderer).values()
         size = sum(kept.depths.nbytes for kept in maps) + 16 * 16 * 8
-    with Renderer(16, 16) as renderer:
+    with Renderer((16, 16)) as renderer:
         allow(monkeypatch, size - 1)
         with pytest.raises(e3d.InvalidArgumentError, match="shadow_map_size") as refused:
             renderer.render(scene_of(lights))
@@ -99,7 +99,7 @@ def test_maps_of_shadows_are_counted(case, monkeypatch):
 
 def test_a_few_bytes_of_a_scene_file_take_no_gigabytes(tmp_path):
     path = tmp_path / "lamps.e3d.json"
-    scene_of([e3d.PointLight(shadow=True, shadow_map_size=8192)] * 4).save(path)
+    scene_of([e3d.PointLight(shadow="map", shadow_map_size=8192)] * 4).save(path)
     scene = e3d.load_scene(path)
     tracemalloc.start()
     try:
@@ -124,7 +124,7 @@ def test_large_maps_are_no_error(sides):
 def test_what_options_take_is_named(name, monkeypatch):
     of_renderer, of_frame = OPTIONS[name]
     size = (64, 40)
-    with Renderer(*size, **{"threads": 1, **of_renderer}) as renderer:
+    with Renderer(size, **{"threads": 1, **of_renderer}) as renderer:
         scene = scene_of()
         limit, said = least_limit(lambda: renderer.render(scene, **of_frame), monkeypatch)
         assert limit > 8 * size[0] * size[1]
@@ -134,11 +134,11 @@ def test_what_options_take_is_named(name, monkeypatch):
 def test_exact_shadows_go_by_faces_in_all_their_places(monkeypatch):
     lamp = e3d.PointLight(shadow="exact")
     scene = scene_of([lamp])
-    with Renderer(8, 8) as renderer:
+    with Renderer((8, 8)) as renderer:
         one, _ = least_limit(lambda: renderer.render(scene), monkeypatch)
     poses = np.tile(np.eye(4, dtype=np.float32), (50, 1, 1))
     scene.add(e3d.InstancedMesh(e3d.box(), poses))
-    with Renderer(8, 8) as renderer:
+    with Renderer((8, 8)) as renderer:
         many, said = least_limit(lambda: renderer.render(scene), monkeypatch)
     assert many - 512 == 51 * (one - 512)
     assert "exact shadows (1 lights, 612 faces" in said
@@ -146,7 +146,7 @@ def test_exact_shadows_go_by_faces_in_all_their_places(monkeypatch):
 
 def test_outputs_are_no_larger_than_the_machine_has_memory(monkeypatch):
     monkeypatch.setattr(_frame_memory, "machine_memory", lambda: 100 * 50 * 4)
-    with Renderer(100, 50) as renderer:
+    with Renderer((100, 50)) as renderer:
         renderer.render(scene_of())
         for call in (renderer.render, renderer.prepare):
             with pytest.raises(
@@ -167,8 +167,8 @@ def test_what_goes_by_the_picture_alone_always_fits():
 
 def test_the_limit_is_what_the_program_says(monkeypatch):
     """Once more after a refusal, and again where it is lowered between frames."""
-    scene = scene_of([e3d.SpotLight(shadow=True, shadow_map_size=512)])
-    with Renderer(8, 8) as renderer:
+    scene = scene_of([e3d.SpotLight(shadow="map", shadow_map_size=512)])
+    with Renderer((8, 8)) as renderer:
         for limit, fits in ((1 << 20, False), (1 << 21, True), (1 << 20, False)):
             allow(monkeypatch, limit)
             if fits:

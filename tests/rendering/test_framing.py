@@ -15,7 +15,7 @@ DIRECTIONS = [(0, 0, -1), (1, -2, 0.5), (0, -1, 0)]
 
 def ndc(camera, pose, points, aspect=1.0):
     """Points (N, 3) as a camera sees them in an image 400 pixels high."""
-    clip_from_world = camera.projection(round(400 * aspect), 400) @ np.linalg.inv(pose)
+    clip_from_world = camera.projection((round(400 * aspect), 400)) @ np.linalg.inv(pose)
     clip = np.c_[points, np.ones(len(points))] @ clip_from_world.T
     assert (clip[:, 3] > 0).all()
     return clip[:, :3] / clip[:, 3:]
@@ -125,7 +125,7 @@ def test_a_scene_without_a_camera_is_framed_by_frame_scene():
 def test_automatic_framing_follows_what_moves():
     scene = e3d.Scene()
     node = scene.add(e3d.icosphere(0.5, 2))
-    with Renderer(40, 30) as renderer:
+    with Renderer((40, 30)) as renderer:
         before = renderer.render(scene).color.copy()
         node.scale = 4
         renderer.render(scene, e3d.frame_scene(scene))
@@ -137,7 +137,7 @@ def test_automatic_framing_follows_what_moves():
         node.object.positions = node.object.positions * np.float32(0.25)
         node.translation = (0, 0, 0)
         np.testing.assert_allclose(renderer.render(scene).color, before, atol=1)
-        renderer.resize(30, 40)
+        renderer.resize((30, 40))
         framed = render(scene, e3d.frame_scene(scene, aspect=0.75), size=(30, 40)).color
         np.testing.assert_array_equal(renderer.render(scene).color, framed)
 

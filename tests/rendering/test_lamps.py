@@ -8,7 +8,7 @@ import engine3d as e3d
 
 SIZE = (64, 48)
 GLOW = e3d.Material(color=(0, 0, 0), emissive=e3d.linear(1.0, 0.8, 0.4))
-SHADOWS = [True, "exact"]
+SHADOWS = ["map", "exact"]
 
 
 def glowing(material=GLOW, center=(0.0, 0.0, 0.0)):
@@ -112,7 +112,7 @@ def test_all_backends_let_it_pass_alike():
 def test_a_renderer_that_drew_before_follows_what_glows_and_where(shadow):
     material = e3d.Material(color=(0, 0, 0))
     scene, ball = room(same_place, shadow, material)
-    with Renderer(*SIZE) as renderer:
+    with Renderer(SIZE) as renderer:
 
         def check():
             kept = renderer.render(scene, camera(), cull="none").color

@@ -32,7 +32,7 @@ def test_fields_are_arguments_of_render_with_the_same_defaults_and_types():
 def test_a_frame_is_that_of_the_same_keyword_arguments(scene):
     outputs = ("color", "depth", "object_id")
     options = e3d.RenderOptions(outputs=list(outputs), **OWN)
-    with Renderer(64, 48) as renderer:
+    with Renderer((64, 48)) as renderer:
         expected = renderer.render(scene, outputs=outputs, **OWN)
         renderer.prepare(scene, options=options)
         for frame in (
@@ -48,7 +48,7 @@ def test_a_frame_is_that_of_the_same_keyword_arguments(scene):
 
 def test_options_and_keyword_arguments_do_not_mix(scene):
     options = e3d.RenderOptions()
-    with Renderer(8, 8) as renderer:
+    with Renderer((8, 8)) as renderer:
         for draw in (renderer.render, renderer.prepare):
             draw(scene, options=options, mode="lit")
             with pytest.raises(e3d.InvalidArgumentError, match="not both"):
@@ -101,13 +101,13 @@ def test_what_could_change_in_place_is_copied():
 def test_what_is_wrong_is_an_error_when_it_is_made(wrong, message):
     with pytest.raises(e3d.InvalidArgumentError, match=message):
         e3d.RenderOptions(**wrong)
-    with pytest.raises(e3d.InvalidArgumentError, match=message), Renderer(8, 8) as renderer:
+    with pytest.raises(e3d.InvalidArgumentError, match=message), Renderer((8, 8)) as renderer:
         renderer.render(e3d.Scene(), **wrong)
 
 
 def test_8_bit_colors_are_not_floats_of_the_same_number(scene):
     """They are equal to Python, so that options with either are, too."""
-    with Renderer(64, 48) as renderer:
+    with Renderer((64, 48)) as renderer:
         frames = [
             renderer.render(scene, options=e3d.RenderOptions(wireframe="only", line_color=color))
             for color in ((np.uint8(1),) * 3, (1.0, 1.0, 1.0))

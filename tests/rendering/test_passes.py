@@ -53,7 +53,7 @@ def scene():
 def test_a_pass_gets_outputs_that_nobody_asked_for(monkeypatch, scene):
     plain = render(scene, size=(40, 30), mode="unlit", outputs=("color", "normal"))
     monkeypatch.setattr(_passes, "PASSES", (ColorPass, Darker))
-    with Renderer(40, 30) as renderer:
+    with Renderer((40, 30)) as renderer:
         for outputs in (("color",), ("normal", "color"), ("color",)):
             frame = renderer.render(scene, mode="unlit", outputs=outputs)
             assert frame.outputs == outputs
@@ -77,5 +77,5 @@ def test_a_pass_that_reads_no_scene_is_not_blamed_on_it(monkeypatch, scene):
     for reads, error in (((), ArithmeticError), (("scene",), e3d.errors.SceneChangedError)):
         monkeypatch.setattr(Wrong, "reads", reads)
         monkeypatch.setattr(_passes, "PASSES", (Wrong, ColorPass))
-        with Renderer(8, 8) as renderer, pytest.raises(error):
+        with Renderer((8, 8)) as renderer, pytest.raises(error):
             renderer.render(scene)

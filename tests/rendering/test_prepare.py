@@ -33,7 +33,7 @@ def handles(mesh):
 @pytest.mark.parametrize("wireframe", [None, "overlay"])
 def test_everything_is_made(wireframe):
     scene, mesh = new_scene()
-    renderer = e3d.Renderer(64, 48)
+    renderer = e3d.Renderer((64, 48))
     renderer.prepare(scene, wireframe=wireframe)
     native, textures = handles(mesh)
     made = dict(textures)
@@ -42,18 +42,18 @@ def test_everything_is_made(wireframe):
     picture = renderer.render(scene, wireframe=wireframe).color
     assert handles(mesh) == (native, made), "the first frame made something again"
     other, _ = new_scene()
-    assert np.array_equal(picture, e3d.Renderer(64, 48).render(other, wireframe=wireframe).color)
+    assert np.array_equal(picture, e3d.Renderer((64, 48)).render(other, wireframe=wireframe).color)
 
 
 def test_identities_need_no_normals():
     scene, mesh = new_scene()
-    e3d.Renderer(64, 48).prepare(scene, outputs=("instance_id",))
+    e3d.Renderer((64, 48)).prepare(scene, outputs=("instance_id",))
     native, _ = handles(mesh)
     assert "normals" not in native.attributes and not native.has_face_normals
 
 
 def test_errors():
-    renderer = e3d.Renderer(8, 6)
+    renderer = e3d.Renderer((8, 6))
     with pytest.raises(e3d.InvalidArgumentError, match="can be drawn, not NoneType"):
         renderer.prepare(None)
     with pytest.raises(e3d.InvalidArgumentError, match="mode must be one of"):
@@ -75,8 +75,8 @@ poses[:, 2, 3] = np.arange(40)
 scene = e3d.Scene()
 scene.add(e3d.InstancedMesh(e3d.uv_sphere(segments=(64, 32)), poses))
 scene.add(e3d.DirectionalLight())
-e3d.Renderer(64, 48, threads=1).prepare(scene)
-renderer = e3d.Renderer(1280, 720, threads=1)
+e3d.Renderer((64, 48), threads=1).prepare(scene)
+renderer = e3d.Renderer((1280, 720), threads=1)
 if sys.argv[1] == "prepared":
     renderer.prepare(scene)
 before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt

@@ -61,6 +61,6 @@ def test_points_of_another_shape(points):
 
 
 def test_a_frame_that_nobody_drew():
-    frame = e3d.Frame(1, 1, {"color": np.zeros((1, 1, 4), np.uint8)})
+    frame = e3d.Frame((1, 1), {"color": np.zeros((1, 1, 4), np.uint8)})
     with pytest.raises(e3d.InvalidArgumentError, match="not drawn by a Renderer"):
         frame.project((0, 0, 0))

@@ -8,7 +8,7 @@ import engine3d as e3d
 
 @pytest.fixture(scope="module")
 def renderer():
-    return e3d.Renderer(8, 6)
+    return e3d.Renderer((8, 6))
 
 
 @pytest.fixture
@@ -17,7 +17,7 @@ def scene():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "options", "message"),
+    ("size", "options", "message"),
     [
         ((0, 6), {}, r"width must be a whole number in 1\.\.16384"),
         ((8, 16385), {}, "height"),
@@ -27,9 +27,9 @@ def scene():
         ((8, 6), {"threads": -1}, "threads"),
     ],
 )
-def test_renderer(arguments, options, message):
+def test_renderer(size, options, message):
     with pytest.raises(e3d.InvalidArgumentError, match=message):
-        e3d.Renderer(*arguments, **options)
+        e3d.Renderer(size, **options)
 
 
 @pytest.mark.parametrize(
@@ -78,7 +78,7 @@ def test_a_camera_is_one_of_the_scene_or_comes_with_its_pose(argument):
     scene, other = e3d.Scene(), e3d.Scene()
     lens, pose = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 3), (0, 0, 0))
     node, elsewhere = scene.add(lens, pose=pose), other.add(lens, pose=pose)
-    with e3d.Renderer(8, 8) as renderer:
+    with e3d.Renderer((8, 8)) as renderer:
         renderer.render(scene, **{argument: node})
         renderer.render(scene, **{argument: (elsewhere.object, elsewhere.world_pose)})
         with pytest.raises(e3d.InvalidArgumentError, match="not a node of this scene: give"):
@@ -108,7 +108,7 @@ def test_window_light_without_range(renderer, scene):
 
 
 def test_closed(scene):
-    with e3d.Renderer(4, 4) as renderer:
+    with e3d.Renderer((4, 4)) as renderer:
         frame = renderer.render(scene)
     assert frame.color.shape == (4, 4, 4)
     renderer.close()

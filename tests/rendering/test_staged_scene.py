@@ -19,7 +19,7 @@ def build(staged):
     lamp = scene.add(e3d.PointLight(), translation=(2, 3, 1))
     drawn = StagedScene(scene) if staged else scene
     beside = drawn.beside if staged else scene
-    sun = beside.add(e3d.DirectionalLight((0.3, -1, -0.2), shadow=True))
+    sun = beside.add(e3d.DirectionalLight((0.3, -1, -0.2), shadow="map"))
     ground = beside.add(e3d.box(), translation=(0, -1.5, 0), scale=(6, 0.1, 6))
     drawn.background, drawn.ambient = (1, 2, 3), (0.2, 0.1, 0.3)
     return scene, drawn, {"ring": ring, "ball": ball, "lamp": lamp, "sun": sun, "ground": ground}
@@ -40,7 +40,7 @@ CHANGES = [
 @pytest.mark.parametrize("cull", ["back", "auto"])
 def test_it_is_drawn_as_one_scene_that_holds_it_all(mode, cull):
     one, other = build(False), build(True)
-    with e3d.Renderer(*SIZE) as first, e3d.Renderer(*SIZE) as second:
+    with e3d.Renderer(SIZE) as first, e3d.Renderer(SIZE) as second:
         for change in CHANGES:
             frames = []
             for renderer, (scene, drawn, nodes) in ((first, one), (second, other)):
@@ -56,7 +56,7 @@ def test_it_is_drawn_as_one_scene_that_holds_it_all(mode, cull):
 
 def test_nodes_that_come_later_have_ids_below_those_beside():
     scene, drawn, nodes = build(True)
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         for _ in range(70):  # more objects than there was room for
             ball = scene.add(e3d.icosphere(0.2, 1), translation=(-1, 0.6, 0))
             frame = renderer.render(drawn, CAMERA, outputs=("object_id",))
@@ -70,7 +70,7 @@ def test_nodes_that_come_later_have_ids_below_those_beside():
 def test_nodes_are_hidden_but_not_those_below_them():
     scene, drawn, nodes = build(True)
     drawn.hide([nodes["ring"]])
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         frame = renderer.render(drawn, CAMERA, outputs=("object_id",))
         shown = np.unique(frame.object_id).tolist()
         assert nodes["ring"].id not in shown and nodes["ball"].id in shown
@@ -82,7 +82,7 @@ def test_nodes_are_hidden_but_not_those_below_them():
 
 def test_the_lights_of_the_scene_are_left_out():
     scene, drawn, nodes = build(True)
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         both = renderer.render(drawn, CAMERA).color.copy()
         drawn.keep_lights(False)
         one = renderer.render(drawn, CAMERA).color.copy()
@@ -104,7 +104,7 @@ def test_a_part_of_a_bent_mesh_is_drawn_as_it_is_bent():
     node = scene.add(flag)
     drawn = StagedScene(scene)
     drawn.hide([], lambda thing: e3d.Mesh(thing.positions, thing.faces[:1]))
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         for weight in (0.0, 1.0):
             node.morph_weights = [weight]
             frames = [

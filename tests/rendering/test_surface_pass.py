@@ -43,7 +43,7 @@ def reader(monkeypatch):
 @pytest.mark.parametrize("backend", e3d.backends())
 def test_one_sample_a_pixel_is_what_the_outputs_hold(backend):
     scene = scene_of_two()
-    with e3d.Renderer(90, 70, backend=backend) as renderer:
+    with e3d.Renderer((90, 70), backend=backend) as renderer:
         expected = renderer.render(scene, outputs=("color", *OUTPUTS))
         renderer.render(scene)
     drawn = Reader.read
@@ -54,7 +54,7 @@ def test_one_sample_a_pixel_is_what_the_outputs_hold(backend):
 
 def test_arrays_are_used_again():
     scene = scene_of_two()
-    with e3d.Renderer(40, 30) as renderer:
+    with e3d.Renderer((40, 30)) as renderer:
         renderer.render(scene)
         first = Reader.places
         renderer.render(scene)

@@ -28,7 +28,7 @@ def wall(material, turned, light, **around):
 
 def shown(scene, backend="auto"):
     camera = e3d.PerspectiveCamera(0.4), e3d.look_at((0, 0, 4), (0, 0, 0))
-    with e3d.Renderer(*SIZE, look="plain", backend=backend) as renderer:
+    with e3d.Renderer(SIZE, look="plain", backend=backend) as renderer:
         return renderer.render(scene, camera).color[..., :3].astype(int)
 
 
@@ -47,7 +47,7 @@ def lit(**light):
 #: By the name of what shines, a function of a random generator.
 SHINING = {
     "directional": lambda rng: lit(direction=(*rng.uniform(-0.6, 0.6, 2), -1), **some(rng)),
-    "shadows": lambda rng: lit(shadow=[True, "exact"][rng.integers(2)], **some(rng)),
+    "shadows": lambda rng: lit(shadow=["map", "exact"][rng.integers(2)], **some(rng)),
     "point": lambda rng: {"light": e3d.PointLight(**some(rng))},
     "window": lambda rng: {"light": e3d.PointLight(range=5.0, falloff="window", **some(rng))},
     "gltf": lambda rng: {"light": e3d.PointLight(range=5.0, falloff="gltf", **some(rng))},
@@ -96,7 +96,7 @@ def test_the_intensity_is_pi_for_white(material):
 
 
 def test_half_the_light_is_half_as_bright():
-    with e3d.Renderer(*SIZE, color_space="linear") as renderer:
+    with e3d.Renderer(SIZE, color_space="linear") as renderer:
         scene = wall(PLAIN, (0, 0, 0, 1), None)
         scene.add(e3d.DirectionalLight(intensity=math.pi / 2))
         camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 4), (0, 0, 0))
@@ -108,5 +108,5 @@ def test_a_highlight_takes_the_same_unit():
     scene = wall(shiny, (0, 0, 0, 1), None)
     scene.add(e3d.DirectionalLight())
     camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 4), (0, 0, 0))
-    with e3d.Renderer(*SIZE, color_space="linear") as renderer:
+    with e3d.Renderer(SIZE, color_space="linear") as renderer:
         assert np.abs(renderer.render(scene, camera).color[..., :3].astype(int) - 128).max() <= 1

@@ -32,7 +32,7 @@ def poses(count):
 
 @pytest.mark.parametrize("camera", CAMERAS, ids=lambda camera: type(camera).__name__)
 def test_matrices_are_those_of_linalg(camera):
-    projection = camera.projection(640, 480)
+    projection = camera.projection((640, 480))
     perspective = bool(projection[3, :3].any())
     inverted = 0
     for pose in poses(600):

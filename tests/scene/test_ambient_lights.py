@@ -18,7 +18,7 @@ def shown(lights, material=None, color_space="linear", **scene_options):
     scene.add(ball)
     for light, pose in lights:
         scene.add(light, pose=pose)
-    with Renderer(64, 64, color_space=color_space) as renderer:
+    with Renderer((64, 64), color_space=color_space) as renderer:
         frame = renderer.render(scene, CAMERA, outputs=("color", "world_normal", "object_id"))
     inside = frame.object_id >= 0
     return frame.world_normal[inside].astype(float), frame.color[inside][:, :3] / 255.0
@@ -121,7 +121,7 @@ def test_hidden_ones_add_nothing_and_changes_show():
     scene.add(e3d.uv_sphere(0.5))
     light = e3d.HemisphereLight((1, 1, 1), (1, 1, 1), 0.5)
     node = scene.add(light)
-    with Renderer(16, 16, color_space="linear") as renderer:
+    with Renderer((16, 16), color_space="linear") as renderer:
 
         def middle():
             return int(renderer.render(scene, CAMERA).color[8, 8, 0])

@@ -11,7 +11,7 @@ from engine3d import linalg
 
 def project(camera, point, width=200, height=100):
     """The pixel coordinates (x right, y down) and z_ndc of a point in view space."""
-    clip = camera.projection(width, height) @ [*point, 1.0]
+    clip = camera.projection((width, height)) @ [*point, 1.0]
     x, y, z = clip[:3] / clip[3]
     return (x + 1) / 2 * width, (1 - y) / 2 * height, z
 
@@ -53,14 +53,14 @@ def test_intrinsics_equal_perspective():
     focal = 50 / math.tan(0.4)
     intrinsics = e3d.IntrinsicsCamera(focal, focal, 100, 50, znear=0.1, zfar=10)
     np.testing.assert_allclose(
-        intrinsics.projection(200, 100), perspective.projection(200, 100), atol=1e-12
+        intrinsics.projection((200, 100)), perspective.projection((200, 100)), atol=1e-12
     )
 
 
 def test_camera_of_a_matrix():
     matrix = linalg.perspective(0.9, 2.0, 0.1, 10)
     camera = e3d.Camera(matrix)
-    np.testing.assert_array_equal(camera.projection(7, 5), matrix)
+    np.testing.assert_array_equal(camera.projection((7, 5)), matrix)
     assert not camera.matrix.flags.writeable
     assert not hasattr(e3d.PerspectiveCamera(), "matrix")
 

@@ -32,7 +32,7 @@ def test_an_empty_node_is_filled_replaced_and_emptied():
     scene.add(box, translation=(-1, 0, 0))
     node = scene.add(translation=(1, 0, 0), name="later")
     child = scene.add(e3d.primitives.quad(), parent=node, translation=(0, 0, -1))
-    with Renderer(*SIZE) as renderer:
+    with Renderer(SIZE) as renderer:
         assert everything(scene, renderer)[3].tolist() == [0, child.id]
         for obj in (box, ball, crowd, None, e3d.PointLight(), ball, e3d.PerspectiveCamera(), box):
             node.object = obj
@@ -42,7 +42,7 @@ def test_an_empty_node_is_filled_replaced_and_emptied():
             twin = other.add(obj, translation=(1, 0, 0))
             other.add(e3d.primitives.quad(), parent=twin, translation=(0, 0, -1))
             for one, expected in zip(
-                everything(scene, renderer), everything(other, Renderer(*SIZE)), strict=True
+                everything(scene, renderer), everything(other, Renderer(SIZE)), strict=True
             ):
                 assert np.array_equal(one, expected), obj
             assert np.array_equal(node.bounds, twin.bounds) or node.bounds is twin.bounds is None
@@ -88,7 +88,7 @@ def test_what_was_replaced_is_let_go():
     scene = e3d.Scene()
     node = scene.add()
     alive = weakref.WeakSet()
-    with Renderer(16, 12, threads=1) as renderer:
+    with Renderer((16, 12), threads=1) as renderer:
         for _ in range(20):
             node.object = mesh = e3d.icosphere(1.0, 1)
             alive.add(mesh)

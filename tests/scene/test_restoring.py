@@ -51,7 +51,7 @@ def random_scene(random):
 def test_all_is_as_it_was_when_what_was_removed_is_back(seed):
     random = np.random.default_rng(seed)
     scene = random_scene(random)
-    with Renderer(64, 48) as renderer:
+    with Renderer((64, 48)) as renderer:
         states, gone = [seen(scene, renderer)], []
         for _ in range(8):
             node = scene.nodes[random.integers(len(scene.nodes))]

@@ -36,7 +36,7 @@ def test_nodes_and_renderers_say_that_they_cannot_be_copied(scene, copied):
     with pytest.raises(TypeError, match="belongs to its Scene"):
         copied(node)
     with (
-        Renderer(4, 4) as renderer,
+        Renderer((4, 4)) as renderer,
         pytest.raises(TypeError, match="make one in each process"),
     ):
         copied(renderer)
@@ -57,7 +57,7 @@ def test_nodes_and_renderers_say_that_they_cannot_be_copied(scene, copied):
         e3d.PerspectiveCamera(),
         e3d.OrthographicCamera(1.0),
         e3d.IntrinsicsCamera(1.0, 1.0, 0.0, 0.0),
-        Renderer(8, 8),
+        Renderer((8, 8)),
         e3d.Scene().select(),
         e3d.Animator(e3d.Scene()),
         e3d.navigation.Walker(e3d.navigation.NavigationGrid(e3d.plane((4, 4))), 0, 0),

@@ -233,7 +233,7 @@ def test_removed_objects_are_let_go():
 def test_draws_follow_what_comes_and_goes():
     camera = e3d.OrthographicCamera(2.0), e3d.look_at((0, 0, 5), (0, 0, 0))
     scene = e3d.Scene()
-    with Renderer(8, 8, backend="scalar") as renderer:
+    with Renderer((8, 8), backend="scalar") as renderer:
 
         def ids():
             frame = renderer.render(scene, camera, outputs=("object_id",))
@@ -350,7 +350,7 @@ def test_threads_change_nothing(threads):
             scene.add(MESHES[number % 3], parent=groups[number % 12] if number % 5 else None)
     camera = e3d.PerspectiveCamera(yfov=0.8, znear=0.1, zfar=30.0)
     view = linalg.inverse(e3d.look_at((9, 9, 9), (0, 0, 0)))
-    clip_from_world = linalg.multiply(camera.projection(64, 64), view)
+    clip_from_world = linalg.multiply(camera.projection((64, 64)), view)
     places = rng.uniform(-5, 5, (9012, 3))
     for step in range(24):
         places += rng.normal(0, 0.1 * step, places.shape)

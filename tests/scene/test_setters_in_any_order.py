@@ -80,7 +80,7 @@ KINDS = (
 )
 PIXELS = lambda r, t: r.integers(0, 256, (4, 4, 4), np.uint8)  # noqa: E731
 SHADOWS = {
-    "shadow": lambda r, t: pick(r, False, True, "exact"),
+    "shadow": lambda r, t: pick(r, "none", "map", "exact"),
     "shadow_map_size": lambda r, t: pick(r, 64, 96),
     "shadow_bias": lambda r, t: pick(r, 0.0, 0.02),
     "shadow_normal_bias": lambda r, t: pick(r, 0.0, 0.02),
@@ -305,7 +305,7 @@ def differing(one, other):
 def test_only_the_end_is_seen(seed):
     rng = np.random.default_rng(seed)
     settings = {"threads": 1, "backend": ("auto", "portable", "scalar")[seed % 8 // 3 * (seed % 2)]}
-    things, kept = Things(), Renderer(*SIZE, **settings)
+    things, kept = Things(), Renderer(SIZE, **settings)
     possible = list(steps(end=False))
     for number in range(60):
         step = possible[rng.integers(len(possible))]
@@ -325,5 +325,5 @@ def test_only_the_end_is_seen(seed):
     expected_left = [*take_all(fresh, first), *take_all(fresh, others)]
     assert sorted(map(str, left)) == sorted(map(str, expected_left))
     for which in range(len(LOOKS)):
-        expected = look(fresh, Renderer(*SIZE, **settings), which)
+        expected = look(fresh, Renderer(SIZE, **settings), which)
         assert not differing(look(things, kept, which), expected), LOOKS[which]

@@ -9,7 +9,7 @@ from engine3d.apps.editor.node_commands import copy_below
 from engine3d.apps.editor.scene_state import SceneState
 
 FIELDS = {
-    "shadow": True,
+    "shadow": "map",
     "shadow_map_size": 512,
     "shadow_bias": -0.001,
     "shadow_normal_bias": 0.02,
@@ -34,7 +34,7 @@ def switches(scene):
 
 def test_lights_have_no_shadow_by_default():
     for light in (e3d.DirectionalLight(), e3d.PointLight(), e3d.SpotLight()):
-        assert light.shadow is False
+        assert light.shadow == "none"
         assert (light.shadow_map_size, light.shadow_radius, light.shadow_taps) == (1024, 1.0, 3)
         assert (light.shadow_bias, light.shadow_normal_bias) == (0.0, 0.0)
 
@@ -77,11 +77,12 @@ def test_a_state_puts_switches_back():
     assert switches(scene)[3:] == [(True, False), (False, True)]
 
 
-def test_numbers_that_are_equal_to_a_switch_are_one():
-    assert e3d.PointLight(shadow=1).shadow is True
-    assert e3d.PointLight(shadow=0).shadow is False
+@pytest.mark.parametrize("shadow", [True, False, 1, None, "soft"])
+def test_other_words_are_answered_by_those_that_are_meant(shadow):
+    with pytest.raises(e3d.InvalidArgumentError, match="shadow must be one of 'none', 'map'"):
+        e3d.PointLight(shadow=shadow)
 
 
 def test_a_spot_of_half_a_turn_may_have_a_shadow():
-    light = e3d.SpotLight(shadow=True, outer_cone_angle=math.pi / 2)
+    light = e3d.SpotLight(shadow="map", outer_cone_angle=math.pi / 2)
     light.check()

@@ -181,7 +181,7 @@ def test_pixels_of_cuts_are_places_on_the_plane(section, up):
                 place = found["position"][axis]
                 if panel.caps.ids[y - top, x - left] >= 0:
                     assert place == pytest.approx(plane, abs=1e-6)
-                    assert found["triangle"] == -1
+                    assert found["face_id"] == -1
                 else:
                     beyond = place - plane if section[0] == "-" else plane - place
                     assert beyond > -1e-5

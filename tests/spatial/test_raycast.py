@@ -68,13 +68,13 @@ def test_rays_against_brute_force(seed):
     for k, direction in enumerate(linalg.normalize(targets - origins)):
         distance, *ids = brute_force(scene, origins[k], direction)
         single = scene.raycast(origins[k], direction)
-        assert [hits.object_id[k], hits.instance[k], hits.face[k]] == ids
+        assert [hits.object_id[k], hits.instance_id[k], hits.face_id[k]] == ids
         if single is None:
             assert ids[0] == -1
             assert hits.distance[k] == math.inf
             continue
         met += 1
-        assert [single.node.id, single.instance, single.face] == ids
+        assert [single.node.id, single.instance_id, single.face_id] == ids
         np.testing.assert_allclose(single.distance, distance, rtol=1e-9)
         np.testing.assert_allclose(single.position, origins[k] + distance * direction, atol=1e-8)
         np.testing.assert_allclose(single.barycentric.sum(), 1, atol=1e-12)
@@ -143,7 +143,7 @@ def test_sides_normals_and_distance():
     node.scale = (-1, 1, 1)  # mirrored, its front is still its front
     assert scene.raycast((0.1, 0, 3), (0, 0, -1), cull="back").normal.tolist() == [0, 0, 1]
     node.scale = (1, 1, 0)  # flat: no volume to go into
-    assert scene.raycast((0.1, 0, 3), (0, 0, -1)).face == hit.face
+    assert scene.raycast((0.1, 0, 3), (0, 0, -1)).face_id == hit.face_id
     assert e3d.Scene().raycast((0, 0, 0), (0, 0, 1)) is None
 
 
@@ -189,7 +189,7 @@ def test_picking_tells_what_the_picture_shows(exact, perspective):
     scene, _ = random_scene(5)
     camera = e3d.PerspectiveCamera(znear=2) if perspective else e3d.OrthographicCamera(8.0)
     camera = camera, e3d.look_at((3, 5, 18), (0, 0, 0))
-    with Renderer(40, 30) as renderer:
+    with Renderer((40, 30)) as renderer:
         shown = renderer.render(scene, camera, outputs=(*IDS, "world_position"))
         frame = shown if exact else renderer.render(scene, camera)
     agreed = 0
@@ -197,7 +197,7 @@ def test_picking_tells_what_the_picture_shows(exact, perspective):
         for x in range(0, 40, 2):
             hit = scene.pick(frame, x, y)
             ids = tuple(int(getattr(shown, name)[y, x]) for name in IDS)
-            found = (-1, -1, -1) if hit is None else (hit.node.id, hit.instance, hit.face)
+            found = (-1, -1, -1) if hit is None else (hit.node.id, hit.instance_id, hit.face_id)
             agreed += found == ids
             if exact:
                 assert found == ids
@@ -212,7 +212,7 @@ def test_picking_lines_and_removed_nodes():
     camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 5), (0, 0, 0))
     frame = render(scene, camera, size=(8, 8), outputs=IDS, line_width=3)
     hit = scene.pick(frame, 4, 4)
-    assert (hit.node, hit.face) == (node, -1)
+    assert (hit.node, hit.face_id) == (node, -1)
     assert scene.pick(frame, 0, 0) is None
     with pytest.raises(e3d.InvalidArgumentError, match="outside"):
         scene.pick(frame, 8, 0)

@@ -63,7 +63,7 @@ def test_pan_keeps_the_target_plane_under_the_pointer(view):
 
     def pixel(point):
         camera = view.camera(BOUNDS)
-        clip = camera.projection(width, height) @ np.linalg.inv(view.pose()) @ [*point, 1.0]
+        clip = camera.projection((width, height)) @ np.linalg.inv(view.pose()) @ [*point, 1.0]
         return (clip[0] / clip[3] + 1) * width / 2, (1 - clip[1] / clip[3]) * height / 2
 
     view.azimuth, view.elevation = 0.7, 0.4

@@ -292,7 +292,7 @@ def test_a_bar_has_more_than_one_number():
 
 @pytest.mark.parametrize("size", [(300, 300), (90, 130)])
 def test_the_bar_has_all_colours_from_bottom_to_top_or_from_left_to_right(size):
-    canvas = Canvas(*size)
+    canvas = Canvas(size)
     bar = ScalarBar("heat", 0.0, 1.0, GRAY)
     draw_scalar_bar(canvas, bar)
     place = place_bar(*size, bar)
@@ -340,7 +340,7 @@ def test_the_bar_takes_a_part_of_the_picture(size, ends):
     for title in ("", TITLE, "x" * 600):
         bar = ScalarBar(title, *ends, GRAY)
         place = place_bar(width, height, bar)
-        draw_scalar_bar(Canvas(width, height), bar)
+        draw_scalar_bar(Canvas((width, height)), bar)
         taken = place.taken(width, height)
         if min(size) >= 40:
             assert taken.right <= 0.25 and taken.bottom <= 0.4

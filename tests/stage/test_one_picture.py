@@ -122,7 +122,7 @@ def test_notebooks_show_meshes_and_scenes_as_render_does(tmp_path):
 @pytest.mark.parametrize("kind", MADE)
 def test_files_of_each_kind_look_as_with_the_command(kind, tmp_path):
     path = save(kind, tmp_path)
-    with e3d.Renderer(*SIZE) as kept:
+    with e3d.Renderer(SIZE) as kept:
         for _ in range(2):
             same(by_command(path, tmp_path), kept.render(str(path)).color)
 
@@ -152,7 +152,7 @@ def test_a_mesh_looks_as_the_file_it_is_saved_to(kind, tmp_path):
     path = tmp_path / f"ball.{kind}"
     mesh = e3d.uv_sphere(0.7, (24, 12))
     mesh.save(path)
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         picture = renderer.render(e3d.load_mesh(path)).color.copy()
         same(picture, renderer.render(path).color)
 
@@ -167,7 +167,7 @@ def things():
 
 @pytest.mark.parametrize("thing", things(), ids=lambda thing: type(thing).__name__)
 def test_a_kept_renderer_draws_as_a_fresh_one(thing):
-    with e3d.Renderer(*SIZE) as kept:
+    with e3d.Renderer(SIZE) as kept:
         kept.prepare(thing)
         kept.render(e3d.box())
         for options in ({}, {"mode": "unlit"}, {}):
@@ -176,7 +176,7 @@ def test_a_kept_renderer_draws_as_a_fresh_one(thing):
         camera = e3d.frame_scene(thing, aspect=SIZE[0] / SIZE[1], direction=(1, -1, -1))
         seen = kept.render(thing, camera).color.copy()
         same(e3d.render(thing, camera, size=SIZE).color, seen)
-        kept.resize(80, 80)
+        kept.resize((80, 80))
         same(e3d.render(thing, size=(80, 80)).color, kept.render(thing).color)
 
 
@@ -184,7 +184,7 @@ def test_changes_of_things_show(tmp_path):
     mesh, scene, path = e3d.box(), e3d.Scene(), tmp_path / "box.obj"
     node = scene.add(mesh)
     mesh.save(path)
-    with e3d.Renderer(*SIZE) as kept:
+    with e3d.Renderer(SIZE) as kept:
         before = [kept.render(thing).color.copy() for thing in (mesh, scene, path)]
         mesh.positions = mesh.positions * (1, 2, 1)
         node.scale = (2, 1, 1)
@@ -202,7 +202,7 @@ def test_a_kept_renderer_stages_a_thing_once(monkeypatch):
     opened = kept_stages.viewed_of
     monkeypatch.setattr(kept_stages, "viewed_of", lambda thing: calls.append(1) or opened(thing))
     mesh = e3d.torus()
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         for _ in range(3):
             renderer.render(mesh)
     assert len(calls) == 1
@@ -237,7 +237,7 @@ def test_the_plain_look_with_one_sample_is_the_renderers_own_picture():
     mesh, scene = e3d.torus(), e3d.Scene()
     scene.add(mesh)
     camera = e3d.frame_scene(scene, aspect=SIZE[0] / SIZE[1])
-    with Renderer(*SIZE) as renderer:
+    with Renderer(SIZE) as renderer:
         exact = renderer.render(scene, camera, cull="back").color.copy()
     options = {"size": SIZE, "look": "plain", "samples": 1, "cull": "back"}
     same(exact, e3d.render(mesh, camera, **options).color)
@@ -266,7 +266,7 @@ def test_looks_are_values():
     with pytest.raises(AttributeError):
         look.ground = True
     with pytest.raises(TypeError, match="shadow"):
-        look.replace(shadow=True)
+        look.replace(shadow="map")
     for wrong in ({"lights": "moon"}, {"light_intensity": -1}, {"background": "x"}):
         with pytest.raises(e3d.InvalidArgumentError):
             e3d.Look.studio(**wrong)

@@ -15,7 +15,6 @@ LONG_SIGNATURES = (
     "model.scene.lights.__init__",
     "model.scene.scene.add",
     "stage.render.render",
-    "stage.renderer.__init__",
 )
 # The attributes are those that users know; in compat.pyrender, pyrender's own.
 LARGE_CLASSES = (

@@ -49,19 +49,15 @@ ENGINE = {
 
 #: Imports that run up: a class offers what another room does.
 FACADES = {
+    "base.notebook_pictures -> stage.thumbnail",
     "model.environments.environment -> io.formats.radiance_pictures",
     "model.environments.environment -> io.reading.sources",
-    "model.environments.environment -> stage.thumbnail",
     "model.geometry._polygons -> io.reading.triangulation",
     "model.geometry.mesh -> io.trimesh_conversion",
     "model.geometry.mesh -> io.writers",
-    "model.geometry.mesh -> stage.thumbnail",
-    "model.materials.material -> stage.thumbnail",
-    "model.materials.textures -> stage.thumbnail",
     "model.scene._queries -> rendering.frame",
     "model.scene._queries -> rendering.picking",
     "model.scene.scene -> io.writing.scene_saving",
-    "model.scene.scene -> stage.thumbnail",
 }
 #: Of programs, those that use another.
 ARROWS = {

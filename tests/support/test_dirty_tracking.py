@@ -50,7 +50,7 @@ def test_python_does_not_look_at_every_mesh():
     counts = []
     for size in (20, 20, 400):  # what is imported at its first use does not count
         scene, meshes = spheres(size)
-        with e3d.Renderer(64, 48, look="plain", threads=1) as renderer:
+        with e3d.Renderer((64, 48), look="plain", threads=1) as renderer:
             for _ in range(3):
                 renderer.render(scene, VIEW)
             row = [calls_of(renderer.render, scene, VIEW)]
@@ -126,7 +126,7 @@ CHANGES += [put_another_in_the_list, share_a_material, move_vertices, change_muc
 def test_a_change_shows(change):
     """As in a scene that is drawn for the first time, by a renderer that saw it before."""
     scene, meshes = spheres(12)
-    with e3d.Renderer(64, 48, threads=1) as renderer, e3d.Renderer(64, 48) as fresh:
+    with e3d.Renderer((64, 48), threads=1) as renderer, e3d.Renderer((64, 48)) as fresh:
         before = renderer.render(scene, VIEW).color.copy()
         change(scene, meshes[3])
         after = renderer.render(scene, VIEW)
@@ -200,7 +200,7 @@ def test_whatever_comes_and_goes(seed, monkeypatch):
     )  # instances that get a tree
     guests, outputs = Guests(seed), ("color", "object_id", "instance_id")
     camera, shows = VIEW[0], set()
-    with e3d.Renderer(64, 48, threads=1) as always, e3d.Renderer(64, 48, threads=1) as seldom:
+    with e3d.Renderer((64, 48), threads=1) as always, e3d.Renderer((64, 48), threads=1) as seldom:
         for step in range(120):
             if step % 6 < 2:  # between them, instances settle
                 guests.do()
@@ -218,7 +218,7 @@ def test_whatever_comes_and_goes(seed, monkeypatch):
 def test_what_went_is_let_go():
     scene, meshes = spheres(40)
     nodes = list(scene.nodes)
-    with e3d.Renderer(64, 48, threads=1) as renderer:
+    with e3d.Renderer((64, 48), threads=1) as renderer:
         renderer.render(scene, VIEW)
         gone = weakref.ref(meshes.pop(7))
         scene.remove(nodes.pop(7))

@@ -110,11 +110,11 @@ def test_a_triangle_keeps_its_number_while_others_are_hidden():
     rows, columns = np.nonzero((frame.object_id == 0) & (frame.face_id >= 6))
     x, y = int(columns[len(columns) // 2]), int(rows[len(rows) // 2])
     viewer.select(x, y)
-    number = viewer.selected.face
+    number = viewer.selected.face_id
     assert number >= 6
     viewer.view_renderer.visibility.toggle_material(0)
     viewer.select(x, y)
-    assert viewer.selected.face == number
+    assert viewer.selected.face_id == number
     assert viewer._selection()[1:3] == [f"triangle {number} of 12", "material green"]
 
 

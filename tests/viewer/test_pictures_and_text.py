@@ -22,7 +22,7 @@ from engine3d.stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 
 @pytest.mark.parametrize("corner", ["top left", "top right", "bottom left", "bottom", "middle"])
 def test_a_block_darkens_its_corner_only(corner):
-    canvas = Canvas(200, 100)
+    canvas = Canvas((200, 100))
     canvas.clear((90, 90, 90))
     draw_block(canvas, ["hello"], corner=corner)
     changed = (canvas.pixels[..., :3] != 90).any(axis=2)
@@ -38,7 +38,7 @@ def test_a_block_darkens_its_corner_only(corner):
 
 
 def test_text_on_a_picture_of_a_pixel_is_clipped():
-    canvas = Canvas(1, 1)
+    canvas = Canvas((1, 1))
     draw_block(canvas, ["hello", "world"])
     draw_help(canvas)
     draw_axes(canvas, Viewpoint(np.zeros(3), 1.0))
@@ -61,11 +61,11 @@ def test_the_help_fits_the_window(size, monkeypatch):
         text(canvas, x, y, string, color, **options)
 
     monkeypatch.setattr(Canvas, "text", note)
-    pages = draw_help(Canvas(*size))
+    pages = draw_help(Canvas(size))
     assert (pages == 1) == (size[0] >= 1280)
     shown.clear()
     for page in range(pages):
-        canvas = Canvas(*size)
+        canvas = Canvas(size)
         assert draw_help(canvas, page) == pages
         assert canvas.pixels[..., :3].any() and fits(canvas)
     said = " ".join(shown).split()
@@ -83,7 +83,7 @@ def test_long_lines_are_wrapped(corner, monkeypatch):
         text(canvas, x, y, string, color, **options)
 
     monkeypatch.setattr(Canvas, "text", note)
-    canvas = Canvas(320, 240)
+    canvas = Canvas((320, 240))
     draw_block(canvas, [error], corner=corner)
     assert fits(canvas) and len(shown) > 2
     assert "".join(shown).replace(" ", "") == error.replace(" ", "")
@@ -93,7 +93,7 @@ def test_long_lines_are_wrapped(corner, monkeypatch):
 
 @pytest.mark.parametrize("size", [(1280, 720), (640, 480)])
 def test_the_statistics_fit_small_windows(size):
-    canvas = Canvas(*size)
+    canvas = Canvas(size)
     stats = e3d.render(e3d.Scene(), size=(8, 8)).stats
     large = {name: 12_345_678 for name, value in stats.items() if isinstance(value, int)}
     draw_block(canvas, statistics_lines(0.02, size, 16, stats | large))
@@ -101,7 +101,7 @@ def test_the_statistics_fit_small_windows(size):
 
 
 def test_axes_point_where_the_camera_sees_them():
-    canvas = Canvas(200, 200)
+    canvas = Canvas((200, 200))
     draw_axes(canvas, Viewpoint(np.zeros(3), 1.0, azimuth=0.0, elevation=0.0))
     red, green = (canvas.pixels[..., k].astype(int) for k in (0, 1))
     x_rows, x_columns = np.nonzero(red > green + 80)

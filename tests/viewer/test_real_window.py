@@ -86,7 +86,7 @@ def test_keys_mouse_and_screenshot(desktop):
     plain = desktop.settle()
     assert 0.1 < covered(plain) / (WINDOW[0] * WINDOW[1]) < 0.9
     assert (desktop.press("h") != plain).sum() > 1000
-    for _ in range(draw_help(Canvas(*WINDOW))):
+    for _ in range(draw_help(Canvas(WINDOW))):
         desktop.press("h")
     assert (desktop.settle() == plain).all()
     assert (desktop.drag(1, 60, 20) != plain).any()

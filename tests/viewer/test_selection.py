@@ -56,7 +56,7 @@ def test_a_click_selects_and_outlines_what_is_there(viewer):
     click(viewer, x, y)
     lines = viewer._selection()
     assert lines[0] == "the box" and lines[2] == "material red"
-    assert lines[1] == f"triangle {viewer.selected.face} of 12"
+    assert lines[1] == f"face {viewer.selected.face_id} of 12"
     line = outlined(viewer)
     assert line.sum() > 200 and not line[:, 160:].any()
     inside = viewer.frame.object_id == viewer.selected.node.id

@@ -120,7 +120,7 @@ def push_keys(monkeypatch, *received):
 @pytest.mark.parametrize("key", ["Q", "Escape"])
 def test_pictures_show_until_a_key_closes_the_window(monkeypatch, key):
     frame = e3d.render(e3d.Scene(), size=(64, 48))
-    for picture in (frame, e3d.Canvas(64, 48), np.zeros((48, 64), np.uint8)):
+    for picture in (frame, e3d.Canvas((64, 48)), np.zeros((48, 64), np.uint8)):
         presented = push_keys(monkeypatch, [events.KeyDown(key, key)])
         e3d.show(picture)
         assert len(presented) == 1
@@ -169,7 +169,7 @@ def test_the_title_tells_the_pixel_under_the_mouse(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     pixels = np.zeros((64, 64, 4), np.uint8)
     pixels[3, 2] = 10, 20, 30, 255
-    with Window(64, 64, "picture", wait=True) as window:
+    with Window((64, 64), "picture", wait=True) as window:
         picture = PictureWindow(window, pixels, "rgba")
         picture._obey(events.MouseMotion(0, 0, 2, 3))
         assert window.title == "picture - 2, 3: 10 20 30 255"
@@ -214,10 +214,10 @@ def test_what_shows_loads_sdl_when_a_window_opens():
 
 
 def test_a_canvas_shows_itself_in_a_notebook():
-    canvas = e3d.Canvas(20, 10)
+    canvas = e3d.Canvas((20, 10))
     canvas.line(0, 0, 19, 9, (255, 0, 0))
     frame = e3d.render(e3d.Scene(), size=(20, 10))
     frame.color[...] = canvas.pixels
     assert canvas._repr_png_() == frame._repr_png_()
     assert e3d.Canvas(canvas.pixels[2:7, 3:9])._repr_png_().startswith(b"\x89PNG")
-    assert e3d.Canvas(0, 5)._repr_png_() is None
+    assert e3d.Canvas((0, 5))._repr_png_() is None

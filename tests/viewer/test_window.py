@@ -31,7 +31,7 @@ sdl2 = load_sdl()
 @pytest.fixture
 def window(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    with Window(160, 120, "test", vsync=False) as window:
+    with Window((160, 120), "test", vsync=False) as window:
         window.events()
         yield window
 
@@ -145,7 +145,7 @@ def test_keys_and_buttons_that_are_down_are_known(window):
 def test_ticks_come_as_often_as_asked_for_and_tell_the_time(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     ticks = []
-    with Window(64, 64, max_fps=50, vsync=False) as window:
+    with Window((64, 64), max_fps=50, vsync=False) as window:
         for event in window:
             if isinstance(event, events.Tick):
                 ticks.append(event)
@@ -161,7 +161,7 @@ def test_ticks_come_as_often_as_asked_for_and_tell_the_time(monkeypatch):
 def test_a_waiting_window_has_no_ticks_and_ends_when_it_is_closed(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     received = []
-    with Window(64, 64, wait=True) as window:
+    with Window((64, 64), wait=True) as window:
         for event in window:
             received.append(event)
             if len(received) == 1:
@@ -175,7 +175,7 @@ def test_a_waiting_window_has_no_ticks_and_ends_when_it_is_closed(monkeypatch):
 
 def test_closing_in_the_loop_ends_it(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    window = Window(64, 64)
+    window = Window((64, 64))
     count = 0
     for _ in window:
         count += 1
@@ -187,7 +187,7 @@ def test_closing_in_the_loop_ends_it(monkeypatch):
 
 def test_each_of_several_windows_gets_its_own_events(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    with Window(64, 64, "one") as one, Window(64, 64, "two") as two:
+    with Window((64, 64), "one") as one, Window((64, 64), "two") as two:
         one.events(), two.events()
         number = sdl2.SDL_GetWindowID(two._window)
         push(sdl2.SDL_KEYDOWN, key__keysym__sym=sdl2.SDLK_a, key__windowID=number)
@@ -200,10 +200,11 @@ def test_each_of_several_windows_gets_its_own_events(monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "options", "said"),
     [
-        ((0, 10), {}, "width must be"),
-        ((10, 20, 3), {}, "title must be a str"),
-        ((10, 20), {"max_fps": 0}, "max_fps must be a"),
-        ((10, 20), {"max_fps": "many"}, "max_fps must be a"),
+        (((0, 10),), {}, "width must be"),
+        ((10,), {}, r"size must be \(width, height\), not 10"),
+        (((10, 20), 3), {}, "title must be a str"),
+        (((10, 20),), {"max_fps": 0}, "max_fps must be a"),
+        (((10, 20),), {"max_fps": "many"}, "max_fps must be a"),
     ],
 )
 def test_what_makes_no_window_is_told(arguments, options, said):
@@ -270,7 +271,7 @@ def test_a_viewer_draws_turns_and_quits(window):
 def test_closing_twice_and_opening_again(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     for _ in range(2):
-        window = Window(64, 64, "again", vsync=False)
+        window = Window((64, 64), "again", vsync=False)
         window.close()
         window.close()
 
@@ -281,7 +282,7 @@ def test_without_a_screen_the_error_says_so(monkeypatch):
     with pytest.raises(e3d.errors.DisplayError, match="no screen"):
         find_screen()
     with pytest.raises(e3d.errors.DisplayError, match="no screen"):
-        Window(64, 64, "nowhere")
+        Window((64, 64), "nowhere")
 
 
 def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
@@ -289,7 +290,7 @@ def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     monkeypatch.delenv("SDL_VIDEODRIVER", raising=False)
     with pytest.raises(e3d.errors.DisplayError, match="no screen"):
-        Window(64, 64, "nowhere")
+        Window((64, 64), "nowhere")
 
 
 def test_loading_sdl_prints_nothing():
@@ -341,7 +342,7 @@ def test_opengl_without_a_graphics_card_is_told_by_its_name(monkeypatch, name, o
 def test_vertical_sync_keeps_the_screens_rhythm(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     pixels = np.zeros((64, 64, 4), np.uint8)
-    with Window(64, 64, "test", vsync=True) as window:
+    with Window((64, 64), "test", vsync=True) as window:
         window.present(pixels)
         start = time.perf_counter()
         for _ in range(12):
@@ -385,7 +386,7 @@ def fine_window(monkeypatch):
         width.value, height.value = 2 * width.value, 2 * height.value
 
     monkeypatch.setattr(sdl2, "SDL_GetRendererOutputSize", twice)
-    with Window(400, 300, "test", vsync=False) as window:
+    with Window((400, 300), "test", vsync=False) as window:
         window.events()
         yield window
 
@@ -463,7 +464,7 @@ class FramedScreen:
 )
 def test_a_window_fits_the_screen_with_its_borders(asked, size, monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    with Window(*asked) as window:
+    with Window(asked) as window:
         window._sdl = FramedScreen(window._sdl, 10, (600, 400), (30, 4, 4, 4))
         window.fit_to_screen()
         assert window.size == size

@@ -33,7 +33,7 @@ def draw(view_renderer, view, znear=None, outputs=("color",)):
     camera = view_renderer._camera(view)
     if znear is not None:
         camera = e3d.PerspectiveCamera(view.yfov, znear=znear, zfar=camera.zfar)
-    with Renderer(*SIZE) as renderer:
+    with Renderer(SIZE) as renderer:
         return renderer.render(view_renderer.viewed.scene, (camera, view.pose()), outputs=outputs)
 
 

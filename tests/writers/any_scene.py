@@ -148,7 +148,7 @@ def mesh(r, materials):
 
 def light(r):
     common = {"color": color(r), "intensity": pick(r, 1.0, 0.0, 3.7)}
-    common.update(shadow=pick(r, False, True, "exact"), shadow_map_size=pick(r, 1024, 64))
+    common.update(shadow=pick(r, "none", "map", "exact"), shadow_map_size=pick(r, 1024, 64))
     common.update(shadow_bias=pick(r, 0.0, 0.01), shadow_taps=pick(r, 3, 5))
     makers = (
         lambda: e3d.DirectionalLight(pick(r, (0, 0, -1), (0, 0, 1), (1, -2, 0.5)), **common),

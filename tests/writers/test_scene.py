@@ -14,7 +14,7 @@ from engine3d.model.scene.placements import Placements
 
 MTL = b"newmtl brick\nKd .8 .2 .1\nmap_Kd house.tga\n"  # without what is not drawn
 VIEW = e3d.PerspectiveCamera(1.2), e3d.look_at((1, 2, 7), (0, 0, 0))
-RENDERER = Renderer(64, 48)
+RENDERER = Renderer((64, 48))
 
 
 def picture(scene):

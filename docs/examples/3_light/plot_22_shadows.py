@@ -2,7 +2,7 @@
 Two kinds of shadows
 ====================
 
-This draws both kinds of shadows. With ``shadow=True`` a light casts shadows from a map of depths.
+This draws both kinds of shadows. With ``shadow="map"`` a light casts shadows from a map of depths.
 Their edges are soft. With ``shadow="exact"`` it casts the shadows that rays would find. Their
 edges are hard, and there is nothing to tune.
 """
@@ -25,7 +25,7 @@ def pillars(shadow):
     return e3d.render(scene, size=(480, 270), samples=4, antialiasing="msaa")
 
 
-soft = pillars(shadow=True)
+soft = pillars(shadow="map")
 
 # %%
 # This is the same scene with exact shadows:

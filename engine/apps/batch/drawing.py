@@ -234,14 +234,14 @@ class Drawer:
             if renderer is not None:
                 renderer.close()
             renderer = self._renderer = Renderer(
-                *task.size,
+                task.size,
                 backend=self._backend,
                 threads=self._threads,
                 samples=task.samples,
                 antialiasing=task.antialiasing,
             )
-        elif (renderer.width, renderer.height) != tuple(task.size):
-            renderer.resize(*task.size)
+        elif renderer.size != tuple(task.size):
+            renderer.resize(task.size)
         return renderer
 
 

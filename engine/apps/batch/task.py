@@ -18,7 +18,7 @@ from ...base.calls import checks_types
 from ...base.image_size import check_size
 from ...base.numbers import shown
 from ...base.validation import choose
-from ...choices import Antialias, ImageFormat, LookName, Samples
+from ...choices import Antialiasing, ImageFormat, LookName, Samples
 from ...errors import InvalidArgumentError
 from ...model.scene.scene import Scene
 from ...rendering.frame import OUTPUTS
@@ -97,7 +97,7 @@ class Task:
     camera: int | Mapping[str, Any] | None = None
     size: tuple[int, int] = (320, 240)
     samples: Samples = 4
-    antialiasing: Antialias = "msaa"
+    antialiasing: Antialiasing = "msaa"
     render: Mapping[str, Any] = field(default_factory=dict)
     look: LookName | None = None
     scene: Mapping[str, Any] = field(default_factory=dict)
@@ -306,7 +306,7 @@ _CHECKS = {
     "camera": check_camera,
     "size": check_size,
     "samples": lambda value: choose(value, get_args(Samples), "samples"),
-    "antialiasing": lambda value: choose(value, get_args(Antialias), "antialiasing"),
+    "antialiasing": lambda value: choose(value, get_args(Antialiasing), "antialiasing"),
     "render": _render,
     "scene": _scene,
     "look": lambda value: choose(value, (None, *get_args(LookName)), "look"),

@@ -40,7 +40,7 @@ class Drawing:
     ) -> None:
         self.workload = workload
         self.renderer = Renderer(
-            *size,
+            size,
             backend=backend,
             threads=threads,
             samples=samples,

@@ -96,6 +96,8 @@ _ELSEWHERE = {
     "--height": ("--size",),
     "--fov": ("--camera-yfov",),
     "--camera-view-angle": ("--camera-yfov",),
+    "--shadows": ("--shadow",),
+    **dict.fromkeys(("--flat", "--facets", "--smooth"), ("--normals",)),
     "--bg": ("--background-color",),
     "--out": ("--output",),
 }

@@ -87,7 +87,7 @@ def encoded(frame: Frame, output: Output) -> tuple[str, bytes]:
 
 def said_of(sample: Sample) -> dict[str, Any]:
     """Return the contents of a picture, in JSON types."""
-    projection = sample.camera.projection(sample.frame.width, sample.frame.height)
+    projection = sample.camera.projection(sample.frame.size)
     return {
         "size": [sample.frame.width, sample.frame.height],
         "seed": sample.seed,

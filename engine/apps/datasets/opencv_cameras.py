@@ -36,7 +36,7 @@ def intrinsics_of(camera: Camera, width: int, height: int) -> list[float]:
     InvalidArgumentError
         It has no perspective.
     """
-    matrix = np.asarray(camera.projection(width, height), np.float64)
+    matrix = np.asarray(camera.projection((width, height)), np.float64)
     scale = -float(matrix[3, 2])
     if scale <= 0.0 or matrix[3, [0, 1, 3]].any() or matrix[:2, 3].any():
         raise InvalidArgumentError("the camera has no perspective: it has no matrix K")

@@ -17,6 +17,7 @@ from ...base.angles import finite_angle
 from ...base.calls import checks_types
 from ...base.numbers import shown
 from ...base.validation import choose, finite, fraction, positive, vector3
+from ...choices import LightShadow
 from ...errors import InvalidArgumentError
 from ...model.materials.linear_colors import LinearColor
 from ...model.materials.material import Material
@@ -86,7 +87,7 @@ def random_light(
     elevation: Limits = (0.4, 1.4),
     intensity: Limits = (1.5, 4.0),
     tint: float = 0.15,
-    shadow: bool | str = True,
+    shadow: LightShadow = "map",
 ) -> DirectionalLight:
     """Return a directional light from above.
 
@@ -96,9 +97,10 @@ def random_light(
     elevation : (low, high)
         Of where the light comes from, in radians above the horizon.
     intensity : (low, high)
+        In lux: a white matt surface that faces the light shows white at pi, whatever its material.
     tint : float
         By how much channels of its colour are less than 1 at most.
-    shadow : {False, True, "exact"}
+    shadow : {"none", "map", "exact"}
     """
     elevation, intensity = _angles(elevation, "elevation"), _limits(intensity, "intensity")
     azimuth, height = generator.uniform(0.0, _TURN), generator.uniform(*elevation)

@@ -79,12 +79,12 @@ def _reaches_the_edge(mask: NDArray[np.bool_]) -> bool:
 def _around(alone: StagedScene, sample: Sample, options: RenderOptions) -> NDArray[np.bool_]:
     """Return the silhouette on a canvas of three times the picture's size, centred."""
     renderer = sample.renderer
-    width, height = renderer.width, renderer.height
-    projection = np.array(sample.camera.projection(width, height))
+    width, height = size = renderer.size
+    projection = np.array(sample.camera.projection(size))
     projection[:2] /= 3.0
-    renderer.resize(3 * width, 3 * height)
+    renderer.resize((3 * width, 3 * height))
     try:
         frame = renderer.render(alone, (Camera(projection), sample.pose), options=options)
     finally:
-        renderer.resize(width, height)
+        renderer.resize(size)
     return frame.object_id >= 0

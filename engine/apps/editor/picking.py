@@ -57,8 +57,8 @@ def pick(scene: Scene, frame: Frame, x: int, y: int, *, reach: float = 10.0) -> 
     obj = hit.node.object
     mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
     material = None
-    if mesh is not None and hit.face >= 0:
-        material = mesh.materials[mesh.material_ids[hit.face]]
+    if mesh is not None and hit.face_id >= 0:
+        material = mesh.materials[mesh.material_ids[hit.face_id]]
     return Pick(hit.node, hit, material)
 
 

@@ -40,7 +40,7 @@ class Thumbnails:
 
     def __init__(self, size: int = 96) -> None:
         self._size = size
-        self._renderer = Renderer(size, size, samples=4, antialiasing="msaa")
+        self._renderer = Renderer((size, size), samples=4, antialiasing="msaa")
         self._pictures: OrderedDict[int, tuple[Any, tuple, NDArray[np.uint8]]] = OrderedDict()
         self._ball: Mesh | None = None
 

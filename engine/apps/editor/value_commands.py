@@ -61,7 +61,7 @@ class SetValues(Command):
 def check(thing: Any) -> None:
     """Raise if an object's values conflict, such as its near and far planes."""
     if isinstance(thing, Camera):
-        thing.projection(1, 1)
+        thing.projection((1, 1))
     elif isinstance(thing, DirectLight):
         thing.check()
 

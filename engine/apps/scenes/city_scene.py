@@ -93,7 +93,7 @@ def _dusk(scene: Scene, town: World) -> None:
 
 def _sun(direction: tuple, color: tuple, intensity: float) -> DirectionalLight:
     return DirectionalLight(
-        direction, color, intensity, shadow=True, shadow_map_size=SUN_MAPS, shadow_cascades=4
+        direction, color, intensity, shadow="map", shadow_map_size=SUN_MAPS, shadow_cascades=4
     )
 
 

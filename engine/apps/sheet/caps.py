@@ -75,7 +75,7 @@ def _on_panel(
     segments: np.ndarray, camera: Camera, pose: np.ndarray, rectangle: Rectangle
 ) -> np.ndarray:
     """Return the ends of segments in the panel's pixels, (N, 2, 2)."""
-    projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+    projection = np.array(camera.projection((rectangle.width, rectangle.height)), np.float64)
     clip = linalg.multiply(projection, linalg.inverse(pose))
     x, y = (linalg.dot(segments, row[:3]) + row[3] for row in clip[:2])
     return np.stack(

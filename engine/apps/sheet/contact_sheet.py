@@ -103,9 +103,10 @@ class Sheet:
         Returns
         -------
         dict or None
-            ``model`` (its number) and ``view`` (its name); where a surface shows also ``node``,
-            ``name``, ``triangle``, ``instance``, ``material`` (its number in the mesh), ``depth``
-            and ``position`` in the file's coordinates. None between the panels.
+            ``model`` (its number) and ``view`` (its name); where a surface shows also ``object_id``
+            and ``name`` of its node, ``face_id``, ``instance_id``, ``material_id`` (its number in
+            the mesh), ``depth`` and ``position`` in the file's coordinates. None between the
+            panels.
         """
         x, y = operator.index(x), operator.index(y)
         for model, panels in enumerate(self._panels):
@@ -236,11 +237,11 @@ def _at(panel: Panel, model: int, x: int, y: int, report: dict[str, Any]) -> dic
         for matrix_row in panel.matrices.world_from_pixel[:3]
     ]
     return found | {
-        "node": node,
+        "object_id": node,
         "name": names[node],
-        "triangle": int(frame.face_id[row, column]),
-        "instance": int(frame.instance_id[row, column]),
-        "material": int(frame.material_id[row, column]),
+        "face_id": int(frame.face_id[row, column]),
+        "instance_id": int(frame.instance_id[row, column]),
+        "material_id": int(frame.material_id[row, column]),
         "depth": depth,
         "position": position,
     }

@@ -69,7 +69,7 @@ class AloneScene:
         found: dict[int, int | None] = {}
         selection = self._scene.select(self._nodes)
         drawing = {name: options[name] for name in ("backend", "threads") if name in options}
-        with Renderer(rectangle.width, rectangle.height, **drawing) as renderer:
+        with Renderer((rectangle.width, rectangle.height), **drawing) as renderer:
             for numbers in pictures:
                 visible = np.zeros(len(self._nodes), bool)
                 visible[numbers] = True
@@ -91,7 +91,7 @@ class AloneScene:
         selection = self._scene.select(self._nodes)
         selection.visible = True
         corners = selection.bounds[:, [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)], [0, 1, 2]]
-        projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+        projection = np.array(camera.projection((rectangle.width, rectangle.height)), np.float64)
         clip = linalg.multiply(projection, linalg.inverse(pose))
         x, y, _, w = (linalg.dot(corners, row[:3]) + row[3] for row in clip)
         with np.errstate(all="ignore"):

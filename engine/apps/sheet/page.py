@@ -76,7 +76,7 @@ def draw_pages(
         raise InvalidArgumentError(
             f"size: {len(models)} parts of {height} rows are more than {MOST_ROWS} rows"
         )
-    canvas = Canvas(width, height * len(models))
+    canvas = Canvas((width, height * len(models)))
     panels, reports = [], []
     for number, model in enumerate(models):
         area = Rectangle(0, number * height, width, height)

@@ -119,7 +119,7 @@ class PanelRenderer:
         """Choose paper that contrasts with a model without faces, as seen by a camera."""
         self.staged.background = None
         self._lighting.follow(pose)
-        with Renderer(*_SMALL, **self._drawing) as renderer:
+        with Renderer(_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
         themes = {"dark": (DARK,), "light": (LIGHT,)}
         chosen = self._look.background if isinstance(self._look.background, str) else ""
@@ -189,9 +189,9 @@ class PanelRenderer:
         """Render any outputs of a panel."""
         size = rectangle.width, rectangle.height
         if self._renderer is None:
-            self._renderer = Renderer(*size, **self._options)
+            self._renderer = Renderer(size, **self._options)
         elif size != (self._renderer.width, self._renderer.height):
-            self._renderer.resize(*size)
+            self._renderer.resize(size)
         options = {"cull": self._cull, "point_size": self._point_size(rectangle), **options}
         return self._renderer.render(
             self.staged, (camera, pose), transparent_outputs=True, **options

@@ -133,7 +133,7 @@ def cut_obliquely(
     sign = -1.0 if plane.from_above else 1.0
     row = np.zeros(4)  # -1 on the plane, and 1 at the farthest bounds behind it
     row[plane.axis], row[3] = sign * 2.0 / reach, -sign * plane.coordinate * 2.0 / reach - 1.0
-    projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+    projection = np.array(camera.projection((rectangle.width, rectangle.height)), np.float64)
     projection[2, :3] = linalg.dot(pose[:3, :3].T, row[:3])
     projection[2, 3] = float(linalg.dot(pose[:3, 3], row[:3])) + row[3]
     return Camera(projection)
@@ -172,7 +172,7 @@ def find_matrices(
     origin : (float, float, float)
         Where the scene's origin is in the file's coordinates.
     """
-    projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+    projection = np.array(camera.projection((rectangle.width, rectangle.height)), np.float64)
     shift = linalg.translation(np.negative(origin))
     view = linalg.multiply(linalg.inverse(pose), shift)
     is_parallel = is_parallel_projection(projection)

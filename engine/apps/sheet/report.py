@@ -257,7 +257,7 @@ def _camera(panel: Panel, origin) -> dict[str, Any]:
 
 
 def _projection_name(camera: Camera, panel: Panel) -> str:
-    projection = np.array(camera.projection(panel.rectangle.width, panel.rectangle.height))
+    projection = np.array(camera.projection((panel.rectangle.width, panel.rectangle.height)))
     return "orthographic" if is_parallel_projection(projection) else "perspective"
 
 

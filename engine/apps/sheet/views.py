@@ -17,7 +17,7 @@ from ...base import linalg
 from ...errors import InvalidArgumentError
 from ...model.scene.orbiting import home_axes, orbit_axes
 
-#: Camera positions: degrees of azimuth and elevation, as in `engine3d.orbit`. The isometric one
+#: Camera positions: azimuth and elevation of `engine3d.orbit`, in degrees. The isometric one
 #: looks along the diagonal of a cube.
 STANDARD = {
     "front": (0.0, 0.0),

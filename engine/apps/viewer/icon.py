@@ -23,7 +23,7 @@ FACES = (
 
 def icon() -> np.ndarray:
     """Return the pixels."""
-    canvas = Canvas(SIDE, SIDE)
+    canvas = Canvas((SIDE, SIDE))
     canvas.clear((0, 0, 0, 0))
     for (first, second, third), color in FACES:
         a, b, c = CORNERS[first], CORNERS[second], CORNERS[third]

@@ -35,7 +35,7 @@ def record(viewer: ViewerState, path: Path) -> str:
     view_renderer = viewer.view_renderer
     size, seconds = view_renderer.size, headless.seconds_a_frame(view_renderer, FRAMES)
     shrunk = min(1.0, LONGEST_SIDE / max(size))
-    view_renderer.resize(*(max(1, round(side * shrunk)) for side in size))
+    view_renderer.resize(tuple(max(1, round(side * shrunk)) for side in size))
     view_renderer.samples = viewer.sampling.at_rest()
     try:
         save_animation(_pictures(viewer, path.name), literal_name(path), seconds)
@@ -44,7 +44,7 @@ def record(viewer: ViewerState, path: Path) -> str:
     except (Engine3DError, OSError) as error:
         return str(error)
     finally:
-        view_renderer.resize(*size)
+        view_renderer.resize(size)
     return f"saved {path.name}"
 
 

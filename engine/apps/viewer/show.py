@@ -138,7 +138,7 @@ def _show(thing, size, format, settings: Settings, **how: Any) -> None:
 def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] | None) -> None:
     size = size or SIZE
     with (
-        Window(*size, f"{viewed.title} - engine3d") as window,
+        Window(size, f"{viewed.title} - engine3d") as window,
         ViewRenderer(viewed, settings, size, antialiasing="msaa") as view_renderer,
     ):
         view = view_of_scene(view_renderer)
@@ -156,5 +156,5 @@ def _show_picture(picture, size, title: str | None, format: PixelFormat | None) 
     height, width = pixels.shape[:2]
     title = title or f"{type(picture).__name__.lower()} {width}x{height}"
     size = size or fitting_size((width, height), SIZE)
-    with Window(*size, title, wait=True) as window:
+    with Window(size, title, wait=True) as window:
         PictureWindow(window, pixels, order).run()

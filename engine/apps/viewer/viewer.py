@@ -160,7 +160,7 @@ class Viewer(ViewerState):
         self.view_renderer.samples = samples or self.sampling.at_rest()
         start = clock.monotonic()
         width, height = self.window.size
-        self.view_renderer.resize(width, height)
+        self.view_renderer.resize((width, height))
         self._changed = False
         outputs = ("color",) if self.selected is None else OUTLINE_OUTPUTS
         self.frame = self.view_renderer.draw(self.view, self.time, outputs)

@@ -10,7 +10,7 @@ import time
 from collections.abc import Iterator
 
 from ...base.calls import checks_types
-from ...base.image_size import check_side
+from ...base.image_size import check_size
 from ...base.numbers import real, shown
 from ...base.validation import text as checked_text
 from ...choices import PixelFormat, PointerShape
@@ -61,17 +61,18 @@ class Window:
     Iterating over it yields events and, where the window doesn't wait, a `Tick` whenever the next
     picture is due. The iteration ends when the user closes the window, or after `close`::
 
-        with e3d.Window(320, 200, "Hello") as window:
-            canvas = e3d.Canvas(320, 200)
+        with e3d.Window((320, 200), "Hello") as window:
+            canvas = e3d.Canvas((320, 200))
             for event in window:
                 canvas.text(10, 10, "hello", (255, 255, 255))
                 window.present(canvas)
 
     Parameters
     ----------
-    width, height : int
-        Size of the drawable area in pixels, at first: the user may resize it. Where the screen
-        counts larger units than pixels (Wayland, macOS), in these: `size` then tells more pixels.
+    size : (int, int)
+        Width and height of the drawable area in pixels, at first: the user may resize it. Where the
+        screen counts larger units than pixels (Wayland, macOS), in these: the attribute `size` then
+        tells more pixels.
     title : str
         Text of the title bar.
     wait : bool
@@ -94,8 +95,7 @@ class Window:
     @checks_types
     def __init__(
         self,
-        width: int,
-        height: int,
+        size: tuple[int, int],
         title: str = "engine3d",
         *,
         wait: bool = False,
@@ -103,7 +103,7 @@ class Window:
         vsync: bool = True,
     ) -> None:
         self._sdl = None
-        size = check_side(width, "width"), check_side(height, "height")
+        size = check_size(size)
         self._title = checked_text(title, "title")
         self._wait = bool(wait)
         self._tick_seconds = 0.0 if max_fps is None else 1.0 / _positive(max_fps, "max_fps")

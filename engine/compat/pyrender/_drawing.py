@@ -64,9 +64,9 @@ class Drawing:
 
     def _engine_of(self, width: int, height: int) -> Engine:
         if self._engine is None:
-            self._engine = Engine(width, height)
-        elif (self._engine.width, self._engine.height) != (width, height):
-            self._engine.resize(width, height)
+            self._engine = Engine((width, height))
+        elif self._engine.size != (width, height):
+            self._engine.resize((width, height))
         return self._engine
 
 

@@ -123,7 +123,7 @@ class Visibility:
             Arrays (H, W) int32; the first is None where there is one object, the last where nothing
             has instances.
         """
-        size = renderer.width, renderer.height
+        size = renderer.size
         key = self._changes, size, projection.tobytes(), pose.tobytes()
         if key != self._last:
             self._last, self._found = key, {}
@@ -138,7 +138,7 @@ class Visibility:
             *(["face_id"] if self._is_single else ["object_id", "face_id"]),
             *(["instance_id"] if self._has_instances else []),
         ]
-        kind = tuple(names), renderer.width, renderer.height
+        kind = tuple(names), renderer.size
         if self._frames[0] != kind:
             self._frames = kind, [None] * len(_OFFSETS)
         frames, camera = self._frames[1], self._cameras[place]

@@ -235,7 +235,7 @@ class Viewer:
 
         rate = float(self._viewer_flags["refresh_rate"])
         title = str(self._viewer_flags["window_title"])
-        with Window(*self._size, title, max_fps=rate) as window:
+        with Window(self._size, title, max_fps=rate) as window:
             self._window = window
             self._is_active = True
             if self._viewer_flags["fullscreen"]:

@@ -32,7 +32,7 @@ def pixels_a_unit(camera: Camera, size: tuple[int, int], distances: np.ndarray) 
 
     Without perspective it is the same everywhere.
     """
-    projection = camera.projection(*size)
+    projection = camera.projection(size)
     pixels = abs(float(projection[1, 1])) * size[1] * 0.5
     if float(projection[3, 3]) == 0.0:
         return pixels / np.maximum(distances, 1e-9)

@@ -199,7 +199,7 @@ def _pictures(
     outputs: tuple[Output, ...] = ("albedo", "world_normal", "object_id")
     size = texels * _PIXELS
     pictures = []
-    with Renderer(size, size) as renderer:
+    with Renderer((size, size)) as renderer:
         for direction in directions:
             pose = np.eye(4)
             pose[:3, :3] = _axes(direction).T

@@ -170,7 +170,7 @@ class DetailedInstances(Closed):
         self, poses: np.ndarray, camera: Camera, pose: np.ndarray, size: tuple[int, int]
     ) -> np.ndarray:
         """Return directions from instances to the viewer, (N, 3), in instance space, any length."""
-        perspective = float(camera.projection(*size)[3, 3]) == 0.0
+        perspective = float(camera.projection(size)[3, 3]) == 0.0
         world = linalg.inverse(self._nodes[0].world_pose) if self._nodes else np.eye(4)
         if perspective:
             eye, center = linalg.transform_points(world, pose[:3, 3]), self._center

@@ -56,7 +56,7 @@ def save_animation(pictures: Iterable[np.ndarray], path: Any, seconds_a_frame: f
     if path.place is not None:
         for number, pixels in enumerate(pictures):
             height, width = pixels.shape[:2]
-            Frame(width, height, {"color": pixels}).save(path.of_frame(number))
+            Frame((width, height), {"color": pixels}).save(path.of_frame(number))
         return
     suffix = os.path.splitext(path)[1].lower()
     if suffix == VIDEO_SUFFIX:

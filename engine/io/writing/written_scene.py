@@ -321,7 +321,7 @@ class _Making:
 
 
 def _tells_of_shadows(node: Node) -> bool:
-    casts = isinstance(node.object, _LIGHTS) and node.object.shadow
+    casts = isinstance(node.object, _LIGHTS) and node.object.shadow != "none"
     return bool(casts or not node.cast_shadows or not node.receive_shadows)
 
 

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..._native.loaders import frozen, is_frozen
 from ...base.calls import checks_types
 from ...base.linalg.single import normalize
+from ...base.notebook_pictures import ShownInNotebooks
 from ...base.numbers import floats, real, shown
 from ...base.validation import Closed, text, vector3
 from ...choices import BuiltInEnvironment
@@ -31,7 +32,7 @@ BUILT_IN: tuple[BuiltInEnvironment, ...] = get_args(BuiltInEnvironment)
 MAX_SIDE = 16384
 
 
-class Environment(Closed):
+class Environment(ShownInNotebooks, Closed):
     """Light from every direction, as an equirectangular picture.
 
     Column u and row v, both in [0, 1] from the left and from below, hold the radiance from the
@@ -177,12 +178,6 @@ class Environment(Closed):
     @property
     def height(self) -> int:
         return self._pixels.shape[0]
-
-    def _repr_png_(self) -> bytes | None:
-        """Return a picture for notebooks; see `thumbnail`."""
-        from ...stage.thumbnail import thumbnail
-
-        return thumbnail(self)
 
     def __repr__(self) -> str:
         return f"Environment({self.width}x{self.height}, name={self.name!r})"

@@ -21,6 +21,7 @@ from ..._native.loaders import exchange, frozen
 from ...base.calls import checks_types
 from ...base.checked_containers import CheckedList
 from ...base.dirty_tracking import renew
+from ...base.notebook_pictures import ShownInNotebooks
 from ...base.numbers import shown
 from ...base.validation import Closed, own, text
 from ...errors import InvalidArgumentError
@@ -59,7 +60,7 @@ _VertexColors: TypeAlias = VertexAttribute[
 ]
 
 
-class Mesh(Closed):
+class Mesh(ShownInNotebooks, Closed):
     """Triangles, lines and points over one list of vertices.
 
     Parameters
@@ -568,12 +569,6 @@ class Mesh(Closed):
         self._arrays.update({name: own(array) for name, array in self._arrays.items()})
         self._values = values
         own_containers(self)
-
-    def _repr_png_(self) -> bytes | None:
-        """Return a picture for notebooks; see `thumbnail`."""
-        from ...stage.thumbnail import thumbnail
-
-        return thumbnail(self)
 
     def __repr__(self) -> str:
         parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]

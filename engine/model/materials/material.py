@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ...base.calls import refuse_unknown
 from ...base.dirty_tracking import renew
+from ...base.notebook_pictures import ShownInNotebooks
 from ...base.validation import Versioned
 from ...choices import AlphaMode, Color, ColorLike, SurfaceColor
 from .colors import linear_color, split_alpha
@@ -51,7 +52,7 @@ Flag: TypeAlias = Parameter[bool, bool]
 
 
 @made_of_parameters
-class Material(Versioned):
+class Material(ShownInNotebooks, Versioned):
     """Surface properties of the faces that refer to it.
 
     With ``metallic`` or ``roughness`` a material is physically based: lit by the model of glTF 2.0
@@ -318,12 +319,6 @@ class Material(Versioned):
     def alpha(self) -> float:
         """The alpha of the base colour, from 0 to 1."""
         return split_alpha(self.color)[1]
-
-    def _repr_png_(self) -> bytes | None:
-        """Return a picture for notebooks; see `thumbnail`."""
-        from ...stage.thumbnail import thumbnail
-
-        return thumbnail(self)
 
     def __repr__(self) -> str:
         texture = "" if self.texture is None else f", texture={self.texture!r}"

@@ -21,6 +21,7 @@ from ...base.angles import finite_angle
 from ...base.calls import hints_keywords
 from ...base.dirty_tracking import renew
 from ...base.linalg import cos, sin
+from ...base.notebook_pictures import ShownInNotebooks
 from ...base.numbers import as_array, real, shown
 from ...base.validation import CheckedAttribute, Closed, choose, one_of, text, whole_number
 from ...choices import ColorSpace, Filter, Wrap
@@ -92,7 +93,7 @@ class ImageFile(NamedTuple):
     is_missing: bool = False
 
 
-class Texture(Closed):
+class Texture(ShownInNotebooks, Closed):
     """An image and how to sample it.
 
     Parameters
@@ -176,12 +177,6 @@ class Texture(Closed):
     @property
     def height(self) -> int:
         return self._pixels.shape[0]
-
-    def _repr_png_(self) -> bytes | None:
-        """Return a picture for notebooks; see `thumbnail`."""
-        from ...stage.thumbnail import thumbnail
-
-        return thumbnail(self)
 
     def __repr__(self) -> str:
         return f"Texture({self.width}x{self.height}, name={self.name!r})"

@@ -15,6 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base import linalg
 from ...base.angles import field_of_view
+from ...base.calls import hinted
+from ...base.image_size import sides_of
 from ...base.numbers import real, shown
 from ...base.validation import (
     CheckedAttribute,
@@ -58,12 +60,14 @@ def _check_range(camera: PerspectiveCamera | OrthographicCamera | IntrinsicsCame
         )
 
 
-def _check_size(width: int, height: int) -> None:
-    """Check an image's sides, quickly if they are integers: every frame does this."""
+def _sides(size: tuple[int, int]) -> tuple[int, int]:
+    """Return an image's sides, checked quickly if they are integers: every frame does this."""
+    width, height = sides_of(size)
     if width.__class__ is height.__class__ is int and 0 < width < 2**31 and 0 < height < 2**31:
-        return
+        return width, height
     for side, what in ((width, "width"), (height, "height")):
         positive(side, what)
+    return width, height
 
 
 def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
@@ -105,9 +109,10 @@ class Camera(Closed):
     def __init__(self, projection: ArrayLike) -> None:
         self.matrix = matrix4(projection, "projection")
 
-    def projection(self, width: int, height: int) -> NDArray[np.float64]:
-        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
-        _check_size(width, height)
+    @hinted
+    def projection(self, size: tuple[int, int]) -> NDArray[np.float64]:
+        """Return clip_from_view for an image of (width, height) pixels, (4, 4) float64."""
+        _sides(size)
         return self.matrix
 
     def __repr__(self) -> str:
@@ -159,9 +164,10 @@ class PerspectiveCamera(Camera):
     aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
     reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(flag)
 
-    def projection(self, width: int, height: int) -> NDArray[np.float64]:
+    @hinted
+    def projection(self, size: tuple[int, int]) -> NDArray[np.float64]:
         _check_range(self)
-        _check_size(width, height)
+        width, height = _sides(size)
         aspect = width / height if self.aspect is None else self.aspect
         matrix = linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
         if self.reversed_depth:
@@ -210,9 +216,10 @@ class OrthographicCamera(Camera):
     znear: NumberAttribute = CheckedAttribute(finite)
     zfar: NumberAttribute = CheckedAttribute(finite)
 
-    def projection(self, width: int, height: int) -> NDArray[np.float64]:
+    @hinted
+    def projection(self, size: tuple[int, int]) -> NDArray[np.float64]:
         _check_range(self)
-        _check_size(width, height)
+        width, height = _sides(size)
         xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
         return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
 
@@ -265,10 +272,11 @@ class IntrinsicsCamera(Camera):
     znear: NumberAttribute = CheckedAttribute(positive)
     zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
 
-    def projection(self, width: int, height: int) -> NDArray[np.float64]:
+    @hinted
+    def projection(self, size: tuple[int, int]) -> NDArray[np.float64]:
         _check_range(self)
         # The depth rows are those of any perspective; only the pixel grid differs.
-        _check_size(width, height)
+        width, height = _sides(size)
         matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)
         matrix[0, 0] = 2.0 * self.fx / width
         matrix[1, 1] = 2.0 * self.fy / height

@@ -84,8 +84,8 @@ class DirectionalLight(DirectLight):
     intensity : float
         In lux. A white matt surface that faces the light shows ``color * intensity / pi``, whatever
         its material is: ``color`` by default.
-    shadow : {False, True, "exact"}
-        Whether objects shadow the surfaces behind them. True uses shadow maps, as in three.js.
+    shadow : {"none", "map", "exact"}
+        Whether objects shadow the surfaces behind them. ``"map"`` uses shadow maps, as in three.js.
         ``"exact"`` traces a ray from each sample to the light: edges are hard, and there is no map,
         bias or other parameter to choose; up to 32 lights. Each node can disable casting and
         receiving shadows.
@@ -123,7 +123,7 @@ class DirectionalLight(DirectLight):
         color: ColorLike = (1, 1, 1),
         intensity: float = WHITE_INTENSITY,
         *,
-        shadow: LightShadow = False,
+        shadow: LightShadow = "none",
         shadow_map_size: int = 1024,
         shadow_bias: float = 0.0,
         shadow_normal_bias: float = 0.0,
@@ -200,7 +200,7 @@ class PointLight(DirectLight):
         range: float = math.inf,
         falloff: Falloff = "inverse_square",
         *,
-        shadow: LightShadow = False,
+        shadow: LightShadow = "none",
         shadow_map_size: int = 1024,
         shadow_bias: float = 0.0,
         shadow_normal_bias: float = 0.0,
@@ -265,7 +265,7 @@ class SpotLight(DirectLight):
         inner_cone_angle: float = 0.0,
         outer_cone_angle: float = math.pi / 4,
         *,
-        shadow: LightShadow = False,
+        shadow: LightShadow = "none",
         shadow_map_size: int = 1024,
         shadow_bias: float = 0.0,
         shadow_normal_bias: float = 0.0,

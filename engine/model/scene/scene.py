@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...base.calls import checks_types, hinted
 from ...base.checked_containers import CheckedDict
 from ...base.linalg.quaternions import quaternion_of_turns
+from ...base.notebook_pictures import ShownInNotebooks
 from ...base.numbers import shown
 from ...base.validation import flag, text, vector3
 from ...choices import ColorLike
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 _DIM = linear(0.1, 0.1, 0.1)
 
 
-class Scene(Surroundings, SceneQueries):
+class Scene(ShownInNotebooks, Surroundings, SceneQueries):
     """A tree of nodes to draw, with a background and ambient light.
 
     Parameters
@@ -301,12 +302,6 @@ class Scene(Surroundings, SceneQueries):
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Scene cannot be pickled, and is copied by scene.copy()")
-
-    def _repr_png_(self) -> bytes | None:
-        """Return a picture for notebooks; see `thumbnail`."""
-        from ...stage.thumbnail import thumbnail
-
-        return thumbnail(self)
 
     def __repr__(self) -> str:
         return f"Scene({self.data.node_count} nodes)"

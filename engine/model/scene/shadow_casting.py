@@ -33,12 +33,6 @@ def count_of(least: int, most: int) -> Callable[[int, str], int]:
     return lambda value, what: whole_number(value, what, least, most)
 
 
-def _shadow(value: LightShadow, what: str) -> LightShadow:
-    # 0 and 1 equal False and True; keep them as these.
-    checked = one_of(SHADOWS)(value, what)
-    return bool(checked) if checked in (False, True) else checked
-
-
 def _radius(value: float, what: str) -> float:
     number = not_negative(value, what)
     if number > 16:
@@ -50,7 +44,7 @@ class CastsShadows(Closed):
     """Base of lights: their shadow parameters."""
 
     version: int
-    shadow: ShadowAttribute = CheckedAttribute(_shadow)
+    shadow: ShadowAttribute = CheckedAttribute(one_of(SHADOWS))
     shadow_map_size: CountAttribute = CheckedAttribute(count_of(LEAST_MAP, MOST_MAP))
     shadow_bias: NumberAttribute = CheckedAttribute(finite)
     shadow_normal_bias: NumberAttribute = CheckedAttribute(finite)

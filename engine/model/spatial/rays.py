@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..._native.rasterizer import CULLS
 from ...base import linalg
 from ...base.calls import shows_annotations
+from ...base.foreign_names import refuses_foreign_names
 from ...base.numbers import floats
 from ...base.validation import choose, how_far, vector3
 from ...errors import InvalidArgumentError
@@ -21,6 +22,7 @@ from ..scene.nodes import Node
 from ._shapes import tell
 
 
+@refuses_foreign_names
 @shows_annotations
 class RayHit(NamedTuple):
     """The intersection of a ray with a face.
@@ -28,43 +30,54 @@ class RayHit(NamedTuple):
     Attributes
     ----------
     node : Node
-    instance : int
+    object_id : int
+        ``node.id``.
+    instance_id : int
         Row in the instances; 0 for a plain mesh.
-    face : int
+    face_id : int
         Index into ``mesh.faces``.
     distance : float
         From the ray's origin, in world units.
-    position, normal : (3,) float64
+    position : (3,) float64
+        World space.
+    normal : (3,) float64
         World space; the unit normal of the front face.
     barycentric : (3,) float64
         Weights of the face's vertices.
     """
 
     node: Node
-    instance: int
-    face: int
+    instance_id: int
+    face_id: int
     distance: float
     position: NDArray[np.float64]
     normal: NDArray[np.float64]
     barycentric: NDArray[np.float64]
 
+    @property
+    def object_id(self) -> int:
+        return self.node.id
 
+
+@refuses_foreign_names
 @shows_annotations
 class RayHits(NamedTuple):
-    """The intersections of many rays with faces: a row per ray.
+    """The intersections of many rays with faces: what `RayHit` holds, with a row per ray.
 
     Attributes
     ----------
-    object_id, instance, face : (N,) int32
+    object_id, instance_id, face_id : (N,) int32
         -1 where a ray misses.
     distance : (N,) float64
-        Infinite where a ray misses; the other arrays are then zero.
-    position, normal, barycentric : (N, 3) float64
+        In world units; infinite where a ray misses, and the arrays below are then zero.
+    position, normal : (N, 3) float64
+        World space.
+    barycentric : (N, 3) float64
     """
 
     object_id: NDArray[np.int32]
-    instance: NDArray[np.int32]
-    face: NDArray[np.int32]
+    instance_id: NDArray[np.int32]
+    face_id: NDArray[np.int32]
     distance: NDArray[np.float64]
     position: NDArray[np.float64]
     normal: NDArray[np.float64]

@@ -91,7 +91,7 @@ class ShadowMaps(Pass):
         scene, draw_list = picture.scene, self.tools.draw_list
         self._drawn = self._count = 0
         draw_list.native.clear_shadows()
-        lights = [entry for entry in draw_list.lights.placed() if entry[1].shadow is True]
+        lights = [entry for entry in draw_list.lights.placed() if entry[1].shadow == "map"]
         if not lights:
             self._kept.clear()
             self._found.clear()

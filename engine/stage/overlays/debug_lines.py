@@ -73,7 +73,7 @@ def _corners(rows: np.ndarray) -> np.ndarray:
 
 def frustum_lines(camera: Camera, pose: np.ndarray, size: tuple[int, int]) -> list[Lines]:
     """Return the frustum of a camera at a pose."""
-    view_from_clip = linalg.inverse(np.asarray(camera.projection(*size), np.float64))
+    view_from_clip = linalg.inverse(np.asarray(camera.projection(size), np.float64))
     signs = np.array([[(k >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for k in range(8)])
     signs[signs[:, 2] > 0.0, 2] = far_depth(camera)
     corners = view_from_clip[:, 3] + sum(

@@ -34,13 +34,13 @@ def selection_lines(hit: RayHit, origin: Sequence[float] = (0.0, 0.0, 0.0)) -> l
     thing = hit.node.object
     lines = [hit.node.name or f"object {hit.node.id}"]
     if isinstance(thing, InstancedMesh):
-        lines.append(f"instance {hit.instance:,} of {len(thing.poses):,}")
+        lines.append(f"instance {hit.instance_id:,} of {len(thing.poses):,}")
     mesh = thing.mesh if isinstance(thing, InstancedMesh) else thing
-    if not isinstance(mesh, Mesh) or hit.face < 0:
+    if not isinstance(mesh, Mesh) or hit.face_id < 0:
         return lines
-    lines.append(f"triangle {hit.face:,} of {len(mesh.faces):,}")
+    lines.append(f"face {hit.face_id:,} of {len(mesh.faces):,}")
     if mesh.materials:
-        number = 0 if mesh.material_ids is None else int(mesh.material_ids[hit.face])
+        number = 0 if mesh.material_ids is None else int(mesh.material_ids[hit.face_id])
         lines.append(f"material {mesh.materials[number].name or number}")
     digits = 10 if any(origin) else 4
     place = (value + moved for value, moved in zip(hit.position, origin, strict=True))
@@ -51,7 +51,7 @@ def draw_outline(frame: Frame, hit: RayHit, width: int = WIDTH) -> None:
     """Draw an outline around the visible part of the selected object or instance."""
     inside = frame.object_id == hit.node.id
     if isinstance(hit.node.object, InstancedMesh):
-        inside &= frame.instance_id == hit.instance
+        inside &= frame.instance_id == hit.instance_id
     outline_pixels(frame, inside, width)
 
 

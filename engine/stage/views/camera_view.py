@@ -43,7 +43,7 @@ class CameraView:
     ) -> None:
         self.camera = camera
         self._pose = np.array(pose, np.float64)
-        self._is_parallel = not np.asarray(camera.projection(*size))[3, :3].any()
+        self._is_parallel = not np.asarray(camera.projection(size))[3, :3].any()
         right, _, front = home_axes(up)
         back = self._pose[:3, 2]
         self.azimuth = math.atan2(float(linalg.dot(back, right)), float(linalg.dot(back, front)))

@@ -82,7 +82,7 @@ def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
 _OF_PICTURES = (
     *("--scene", "--texture", "--color", "--animation-time", "--output"),
     *("--size", "--look", "--samples", "--background-color", "--grid"),
-    *("--mode", "--wireframe", "--edges", "--shadows", "--environment", "--exposure"),
+    *("--mode", "--wireframe", "--edges", "--shadow", "--environment", "--exposure"),
     *("--scalar-coloring", "--bar", "--up"),
     *("--camera-azimuth-angle", "--camera-elevation-angle", "--camera-zoom-factor"),
 )

@@ -120,7 +120,7 @@ def show(programs: list[Path], number: int, language: str) -> None:
         for k, program in enumerate(programs)
     ]
     try:
-        with Window(*SIZE, lessons[number].title, wait=True) as window:
+        with Window(SIZE, lessons[number].title, wait=True) as window:
             say(KEYS[language].format(programs[number]))
             LessonWindow(window, lessons, number, STEP[language]).run()
     except DisplayError as error:

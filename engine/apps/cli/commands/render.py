@@ -149,7 +149,7 @@ def _print_picture(view_renderer: ViewRenderer, view) -> None:
     from ...terminal.printing import print_picture
 
     def draw(size):
-        view_renderer.resize(*size)
+        view_renderer.resize(size)
         return view_renderer.draw(view).color
 
     print_picture(draw, view_renderer.aspect)

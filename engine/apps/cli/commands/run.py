@@ -166,7 +166,7 @@ def _window(args: argparse.Namespace, viewed):
     from ...viewer.window import Window
 
     size = args.size or WINDOW_SIZE
-    return Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync)
+    return Window(size, f"{viewed.title} - engine3d", vsync=args.vsync)
 
 
 def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report) -> int:

@@ -11,6 +11,7 @@ from ....choices import (
     HiddenSurfaces,
     LineShape,
     Mode,
+    Normals,
     OutputMode,
     PointShape,
     Shading,
@@ -63,27 +64,11 @@ def add_appearance(parser) -> None:
     )
     _add_line_shapes(group)
     _add_texture_filters(group)
-    normals = group.add_mutually_exclusive_group()
-    normals.add_argument(
-        "--flat",
-        action="store_const",
-        const="flat",
-        dest="normals",
-        help="shade with one normal per face",
-    )
-    normals.add_argument(
-        "--facets",
-        action="store_const",
-        const="facet",
-        dest="normals",
-        help="shade with one normal and one light per face: that of its middle",
-    )
-    normals.add_argument(
-        "--smooth",
-        action="store_const",
-        const="smooth",
-        dest="normals",
-        help="shade with one normal per vertex",
+    group.add_argument(
+        "--normals",
+        choices=get_args(Normals),
+        help="which normals to shade with: the model's (auto, the default), one per vertex "
+        "(smooth), one per face (flat), or one per face and one light, that of its middle (facet)",
     )
     group.add_argument(
         "--cull",

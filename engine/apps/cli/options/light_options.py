@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import get_args
 
-from ....choices import ToneMapping
+from ....choices import LightShadow, ToneMapping
 from .. import values
-
-#: Values of lights' ``shadow``, by their names here.
-SHADOWS = {"none": False, "map": True, "exact": "exact"}
 
 
 def add_light(parser) -> None:
@@ -40,8 +37,8 @@ def add_light(parser) -> None:
         help="keep the sum of the lights within these, such as 0.1,1",
     )
     group.add_argument(
-        "--shadows",
-        choices=[*SHADOWS],
+        "--shadow",
+        choices=get_args(LightShadow),
         help="whether the main lights cast shadows: none, from maps drawn from the lights, or "
         "exact ones with hard edges; by default what a scene file says of its lights",
     )

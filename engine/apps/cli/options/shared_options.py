@@ -140,7 +140,7 @@ def settings(args: argparse.Namespace, **more) -> Settings:
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,
         light_clamp=args.light_clamp,
-        shadow=None if args.shadows is None else light_options.SHADOWS[args.shadows],
+        shadow=args.shadow,
         surroundings=environment_options.surroundings(args),
         exposure=args.exposure,
         textures=not args.no_texture,

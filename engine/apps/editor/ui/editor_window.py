@@ -67,7 +67,7 @@ class EditorWindow:
         self.workspace.guard = lambda: self._interrupts.stoppable(self._stops)
         if path:
             self.workspace.begin(path)
-        self.window = Window(*size, self._title(), wait=True)
+        self.window = Window(size, self._title(), wait=True)
         self.window.fit_to_screen()
         self._context = imgui.create_context()
         io = imgui.get_io()
@@ -156,7 +156,7 @@ class EditorWindow:
         self._late += [event for event in happened if not _is_stop_key(event)]
         if not self._has_told and time.monotonic() - self._started > PATIENCE:
             self._has_told = True
-            canvas = Canvas(*self.window.size)
+            canvas = Canvas(self.window.size)
             canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
             canvas.text(16, 16, RUNNING, (255, 255, 255), scale=2, background=(150, 40, 40))
             self.window.present(canvas)

@@ -77,7 +77,7 @@ class GizmoHandles:
         camera = view.camera(bounds._replace(radius=reach))
         matrices = [
             gizmo.Matrix16(matrix.T.ravel().tolist())
-            for matrix in (linalg.inverse(view.pose()), camera.projection(*size), pose)
+            for matrix in (linalg.inverse(view.pose()), camera.projection(size), pose)
         ]
         operation = {
             "move": gizmo.OPERATION.translate,

@@ -88,7 +88,7 @@ class Overlays:
 
     def _frustum(self, node: Node, frame: Frame) -> np.ndarray:
         """Return the eight corners of a camera's frustum, in world space."""
-        projection = node.object.projection(frame.width, frame.height)
+        projection = node.object.projection(frame.size)
         unprojected = linalg.inverse(projection)
         corners = 2.0 * _CORNERS - 1.0
         corners[1::2, 2] = far_depth(node.object)

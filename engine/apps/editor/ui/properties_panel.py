@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from imgui_bundle import imgui
 
+from ....choices import LightShadow
 from ....model.environments.environment import BUILT_IN, named_environment
 from ....model.geometry.mesh import Mesh
 from ....model.materials.colors import split_alpha
@@ -38,14 +39,8 @@ _COLLIDERS = {
     "mesh": lambda mesh: MeshCollider(),
 }
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
-# Names of shadow values for lights; drag speeds of numbers.
-_SHADOWS = {False: "none", True: "map", "exact": "exact"}
 _LIGHT_COLORS = {"sky_color": "Sky", "ground_color": "Ground", "color": "Colour"}
-_LIGHT_NUMBERS = {
-    "intensity": ("Intensity", 0.05),
-    "inner_cone_angle": ("Inner cone", 0.01),
-    "outer_cone_angle": ("Outer cone", 0.01),
-}
+_LIGHT_ANGLES = {"inner_cone_angle": "Inner cone", "outer_cone_angle": "Outer cone"}
 
 
 class PropertiesPanel:
@@ -305,9 +300,11 @@ class PropertiesPanel:
         for name, label in _LIGHT_COLORS.items():
             if hasattr(light, name):
                 self._color(light, name, label)
-        for name, (label, speed) in _LIGHT_NUMBERS.items():
+        if hasattr(light, "intensity"):  # by a hundredth of it
+            self._number(light, "intensity", "Intensity", 0.01 * max(light.intensity, 1.0), 0.0)
+        for name, label in _LIGHT_ANGLES.items():
             if hasattr(light, name):
-                self._number(light, name, label, speed, 0.0)
+                self._number(light, name, label, 0.01, 0.0)
         if hasattr(light, "shadow"):
             self._draw_shadow(light)
         if hasattr(light, "range"):
@@ -318,10 +315,10 @@ class PropertiesPanel:
                 self._set([light], {"direction": direction})
 
     def _draw_shadow(self, light: Light) -> None:
-        if not imgui.begin_combo("Shadow", _SHADOWS[light.shadow]):
+        if not imgui.begin_combo("Shadow", light.shadow):
             return
-        for shadow, name in _SHADOWS.items():
-            chosen = imgui.selectable(name, shadow == light.shadow)[0]
+        for shadow in get_args(LightShadow):
+            chosen = imgui.selectable(shadow, shadow == light.shadow)[0]
             if chosen and shadow != light.shadow:
                 self._workspace.do(SetValues([light], {"shadow": shadow}))
         imgui.end_combo()

@@ -39,27 +39,35 @@ class RendererTurn:
         self._native: NativeRenderer | None = native
         # reentrant, so that a nested call gets an error instead of a deadlock
         self._lock = threading.RLock()
-        self._drawing = self._forked = False
+        self._drawing = self._staging = self._forked = False
         _turns.add(self)
 
     @contextmanager
-    def taken(self, *, closing: bool = False) -> Iterator[None]:
-        """Hold the turn within the block; after a fork, a renderer can still be closed.
+    def taken(self, *, closing: bool = False, staging: bool = False) -> Iterator[None]:
+        """Hold the turn within the block.
+
+        Parameters
+        ----------
+        closing : bool
+            Allow it after a fork.
+        staging : bool
+            The block stages a thing, and takes the turn again to draw it; nothing else is staged.
 
         Raises
         ------
         RendererBusyError
         """
         with self._lock:
-            if self._drawing and not self._forked:
+            if (self._drawing or self._staging and staging) and not self._forked:
                 raise RendererBusyError(_WITHIN)
             if not closing:
                 self.check()
+            held = "_staging" if staging else "_drawing"
             try:
-                self._drawing = True
+                setattr(self, held, True)
                 yield
             finally:
-                self._drawing = False
+                setattr(self, held, False)
 
     def check(self) -> None:
         """Raise if the process was forked from within a frame."""
@@ -73,7 +81,7 @@ class RendererTurn:
     def _fork(self) -> None:
         """Reset the turn in a forked process: the threads that held or awaited it are gone."""
         self._lock = threading.RLock()
-        if self._drawing and self._native is not None:
+        if (self._drawing or self._staging) and self._native is not None:
             self._forked = True
             self._native.abandon()
 

@@ -23,7 +23,7 @@ GOLD = painted(e3d.cylinder(COIN, 0.1, 32), color="#ffb52e", roughness=0.25, met
 class Game:
     def __init__(self):
         self.scene = e3d.Scene(background=e3d.Gradient("#8fb4d0", "#dfe9f0"), ambient="#8f99a6")
-        self.scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.4), "#fff0d8", 2.4, shadow=True))
+        self.scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.4), "#fff0d8", 2.4, shadow="map"))
         pose = e3d.look_at((0, 10.5, 14), (0, -0.9, 0))
         self.scene.add(e3d.PerspectiveCamera(0.53), pose=pose)
         self.scene.add(TOP, translation=(0, -0.2, 0))

@@ -116,7 +116,7 @@ THINGS = {
 def test_saved_things_look_the_same(name, tmp_path):
     make, held = THINGS[name]
     thing = make()
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         drawn = renderer.render(thing).color.copy()
         for kind in held.split():
             path = tmp_path / ("thing.e3d.json" if kind == "scene" else f"thing.{kind}")
@@ -155,7 +155,7 @@ def test_scene_files_look_as_their_scenes(name, tmp_path):
     scene, path = scenes()[name], tmp_path / "scene.e3d.json"
     e3d.save_scene(scene, path)
     camera = e3d.frame_scene(scene, aspect=4 / 3, direction=(-1, -1, -2))
-    with e3d.Renderer(*SIZE) as renderer:
+    with e3d.Renderer(SIZE) as renderer:
         drawn = renderer.render(scene, camera).color.copy()
         for again in (path, e3d.load_scene(path)):
             assert np.array_equal(renderer.render(again, camera).color, drawn)

@@ -64,7 +64,7 @@ CHANGES = {
 @pytest.mark.parametrize("name", CHANGES)
 def test_each_change_shows(name):
     made = scene()
-    with e3d.Renderer(*SIZE) as kept:
+    with e3d.Renderer(SIZE) as kept:
         before = kept.render(made).color.copy()
         CHANGES[name](made)
         after = kept.render(made).color.copy()
@@ -90,7 +90,7 @@ def test_a_still_scene_is_not_visited(monkeypatch):
             module, name, lambda *things, visit=visit: visits.append(1) or visit(*things)
         )
     cameras = [e3d.frame_scene(made, direction=(k, -1, -2)) for k in range(4)]
-    with e3d.Renderer(*SIZE) as kept:
+    with e3d.Renderer(SIZE) as kept:
         for camera in cameras[:2]:
             kept.render(made, camera)
         first = len(visits)

@@ -31,7 +31,7 @@ def samples(writer, renderer, seeds):
         yield Sample(f"{seed:04}", seed, frame, scene, camera, pose, renderer)
 
 
-with tempfile.TemporaryDirectory() as folder, e3d.Renderer(160, 120) as renderer:
+with tempfile.TemporaryDirectory() as folder, e3d.Renderer((160, 120)) as renderer:
     writer = CocoWriter(list(things))
     e3d.datasets.write_dataset(folder, writer, samples(writer, renderer, range(3)))
     annotations = json.loads((Path(folder) / "annotations.json").read_text())["annotations"]

@@ -19,7 +19,7 @@ for number, color in enumerate(("firebrick", "goldenrod", "seagreen")):
     block.materials = [e3d.Material(color=color)]
     scene.add(block, name=color, translation=(1.2 * number, 0.2 + 0.2 * number, 0.0))
 scene.add(e3d.plane(6.0), name="ground", translation=(1.2, 0.0, 0.0))
-scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.4), intensity=2.2, shadow=True))
+scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.4), intensity=2.2, shadow="map"))
 scene.add(e3d.PerspectiveCamera(0.6), pose=e3d.look_at((3.0, 3.0, 5.5), (1.2, 0.3, 0.0)))
 frame = e3d.render(scene, size=(420, 260))
 

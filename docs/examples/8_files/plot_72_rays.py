@@ -18,13 +18,13 @@ camera, pose = e3d.frame_scene(scene, direction=(-0.4, -0.8, -1.0), aspect=SIZE[
 frame = e3d.render(scene, (camera, pose), size=SIZE)
 picture = frame.canvas()
 
-projection = camera.projection(*SIZE)
+projection = camera.projection(SIZE)
 for column, row in ((140, 110), (210, 210), (320, 170), (210, 125), (30, 30)):
     x = (2.0 * column / SIZE[0] - 1.0) / projection[0, 0]
     y = (1.0 - 2.0 * row / SIZE[1]) / projection[1, 1]
     direction = pose[:3, :3] @ np.array((x, y, -1.0))
     hit = scene.raycast(pose[:3, 3], direction)
-    picture.text(column + 4, row + 4, "nothing" if hit is None else f"face {hit.face}", "black")
+    picture.text(column + 4, row + 4, "nothing" if hit is None else f"face {hit.face_id}", "black")
     if hit is not None:
         (x0, y0), _ = frame.project(hit.position)
         (x1, y1), _ = frame.project(hit.position + 0.3 * hit.normal)

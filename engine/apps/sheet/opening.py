@@ -44,7 +44,7 @@ def _open(source: Any, root: str | os.PathLike[str] | None) -> ViewedScene:
     viewed = open_models([source], root=root) if is_file(source) else viewed_of(source)
     if viewed is None:
         raise InvalidArgumentError(
-            f"a model is a path, a scene, a node, a mesh or points, not {type(source).__name__}"
+            f"models must be paths, scenes, nodes, meshes or points, not {type(source).__name__}"
         )
     viewed.title = printable(viewed.title)
     return viewed

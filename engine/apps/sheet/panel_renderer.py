@@ -155,8 +155,7 @@ class PanelRenderer:
     def picture(self, camera: Camera, pose: np.ndarray, rectangle: Rectangle) -> Frame:
         """Draw a panel as `engine3d.render` draws the model with this camera."""
         with PictureRenderer(
-            rectangle.width,
-            rectangle.height,
+            (rectangle.width, rectangle.height),
             look=self._look,
             material=self._material,
             **self._drawing,

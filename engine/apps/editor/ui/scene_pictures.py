@@ -44,7 +44,7 @@ class ScenePictures:
         wanted = size, self._workspace.display.worn_look
         if self._renderer is None or self._made_for != wanted:
             self.close()
-            self._renderer = Renderer(*size, look=self._workspace.display.worn_look)
+            self._renderer = Renderer(size, look=self._workspace.display.worn_look)
             self._made_for = wanted
         return self._renderer
 

@@ -44,7 +44,7 @@ def test_shaders_are_refused_with_advice():
     ):
         with pytest.raises(NotImplementedError, match="normal"):
             make()
-    renderer = pyrender.renderer.Renderer((8, 8))  # where programs put a cache of their own shaders
+    renderer = pyrender.renderer.Renderer(8, 8)  # where programs put a cache of their own shaders
     with pytest.raises(NotImplementedError, match="normal"):
         renderer._program_cache = pyrender.shader_program.ShaderProgramCache()
 

@@ -195,7 +195,7 @@ def shadows_of_many_lights():
             color,
             0.7 * math.pi,
             range=4.0,
-            shadow=number % 2 == 0,
+            shadow="none" if number % 2 else "map",
             shadow_map_size=64,
             shadow_taps=3,
         )

@@ -115,7 +115,7 @@ def test_a_triangle_keeps_its_number_while_others_are_hidden():
     viewer.view_renderer.visibility.toggle_material(0)
     viewer.select(x, y)
     assert viewer.selected.face_id == number
-    assert viewer._selection()[1:3] == [f"triangle {number} of 12", "material green"]
+    assert viewer._selection()[1:3] == [f"face {number} of 12", "material green"]
 
 
 def test_a_long_list_scrolls_and_the_wheel_elsewhere_zooms():

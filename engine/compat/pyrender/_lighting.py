@@ -130,7 +130,7 @@ class ShadowMaps:
         clip_from_world : (4, 4) float64
         """
         if self._engine is None:
-            self._engine = Engine(SHADOW_TEX_SZ, SHADOW_TEX_SZ)
+            self._engine = Engine((SHADOW_TEX_SZ, SHADOW_TEX_SZ))
         pose, scale = scene.get_pose(light_node), scene.scale
         projection = light_node.light._get_shadow_camera(scale).get_projection_matrix()
         if isinstance(light_node.light, DirectionalLight):

@@ -380,8 +380,9 @@ def _given_pixels(*args: Any) -> NDArray[np.uint8]:
 
 
 def _color_bytes(color: ColorLike, what: str = "color") -> bytes:
+    codes: Any = color
     try:
-        rgba = bytes(tuple(color))
+        rgba = bytes(tuple(codes))
     except (TypeError, ValueError):  # a word, or floats
         rgba = rgba_codes(color, what)
     if len(rgba) == 3:

@@ -98,7 +98,7 @@ class DatasetWriter(ABC):
 
     @abstractmethod
     @checks_types
-    def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
+    def describe(self, sample: Sample) -> tuple[Mapping[str, Content], Any]:
         """Return a picture's files, by path in the data set, and a note for `finish`.
 
         Files that are `Shared` are created if missing or damaged.

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +27,7 @@ from ..model.materials.display_colors import rgba_codes
 if TYPE_CHECKING:
     from PIL import Image
 
-Color = Sequence[int]
+Color = str | Sequence[float]
 LineAlgorithm = Literal["bresenham", "dda"]
 TriangleAlgorithm = Literal["edge", "scanline"]
 
@@ -381,7 +381,7 @@ def _given_pixels(*args: Any) -> NDArray[np.uint8]:
 
 def _color_bytes(color: Color | NDArray[np.uint8], what: str = "color") -> bytes:
     try:
-        rgba = bytes(tuple(color))
+        rgba = bytes(tuple(cast("Sequence[int]", color)))
     except (TypeError, ValueError):  # a word, or floats
         rgba = rgba_codes(color, what)
     if len(rgba) == 3:

@@ -15,6 +15,7 @@ from reference_code import with_code
 
 project = "engine3d"
 author = "engine3d authors"
+copyright = "2026, engine3d authors"
 release = version = engine3d.__version__
 language = "en"
 

@@ -359,7 +359,7 @@ PICTURES = {
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", "sheet", *gallery.programs())
+SMALL = ("models", "sheet", "city", "impostors", *gallery.programs())
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 

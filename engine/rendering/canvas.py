@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -387,7 +387,7 @@ def _new_pixels(size: object) -> NDArray[np.uint8]:
 
 def _color_bytes(color: Any, what: str = "color") -> bytes:
     try:
-        rgba = bytes(tuple(color))
+        rgba = bytes(tuple(cast("Sequence[int]", color)))
     except (TypeError, ValueError):  # a word, or floats
         rgba = rgba_codes(color, what)
     if len(rgba) == 3:

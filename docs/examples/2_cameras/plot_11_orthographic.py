@@ -24,7 +24,8 @@ camera = e3d.OrthographicCamera(1.7)
 drawings = []
 for eye in ((0, 0, 5), (5, 0, 0), (3, 2.5, 4)):
     pose = e3d.look_at(eye, (0.0, 0.25, 0.0))
-    lines = {"wireframe": "only", "line_color": "black"}
-    drawings.append(e3d.render(scene, (camera, pose), size=(160, 200), **lines).color)
+    view = (camera, pose)
+    drawn = e3d.render(scene, view, size=(160, 200), wireframe="only", line_color="black").color
+    drawings.append(drawn)
 drawing = e3d.Canvas(np.hstack(drawings))
 drawing.text(8, 184, f"1 unit = {200 / (2 * 1.7):.0f} pixels", "dimgray")

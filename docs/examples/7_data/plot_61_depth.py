@@ -2,7 +2,7 @@
 A depth map
 ===========
 
-This draws how far away things are: as a picture with a bar, and as an array of metres.
+This draws how far away things are: as a picture, near is light, and as an array of numbers.
 
 ``frame.depth`` is the distance along the camera's axis, and 0 where nothing is.
 """

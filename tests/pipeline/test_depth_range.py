@@ -77,7 +77,7 @@ def test_what_sees_the_far_plane_sees_it_there():
         assert np.abs(frames[0].color.astype(int) - frames[1].color).max() <= 1
         y, x = np.argwhere(frames[0].object_id >= 0)[5].tolist()
         hits = [scene.pick(frame, x, y) for frame in frames]
-    assert hits[0].face == hits[1].face
+    assert hits[0].face_id == hits[1].face_id
     assert hits[0].position == pytest.approx(hits[1].position, abs=1e-9)
 
 

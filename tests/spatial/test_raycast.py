@@ -152,7 +152,7 @@ def test_what_is_not_finite_is_not_met():
     positions = np.float32([(-1, -1, 0), (1, -1, 0), (np.nan, 1, 0), (0, 1, 0)])
     scene.add(e3d.Mesh(positions, [(0, 1, 2), (0, 1, 3)]))
     scene.add(e3d.InstancedMesh(e3d.primitives.quad(), [(0, 0, 1, np.inf), (0, 0, -1, 1)]))
-    assert scene.raycast((0, 0, 5), (0, 0, -1)).face == 1
+    assert scene.raycast((0, 0, 5), (0, 0, -1)).face_id == 1
 
 
 @pytest.mark.parametrize(

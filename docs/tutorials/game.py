@@ -55,7 +55,7 @@ def advance(game, dt, keys):
         way = way - over * out
     roll(game.ball, way)
     for coin in game.coins:
-        coin.euler = np.pi / 2, 3 * game.time, 0
+        coin.euler = np.pi / 2, 3 * game.time % (2 * np.pi), 0
         if linalg.length(coin.translation - game.ball.translation) < BALL + COIN:
             coin.visible = False
 

@@ -50,10 +50,15 @@ def support_of_scene(scene: Scene) -> SupportFunction | None:
     arrays = scene.data.arrays
     shown = arrays.columns["flags"][: arrays.count] & SHOWN != 0
     numbers = arrays.columns["object"][: arrays.count]
-    for number, obj in enumerate(scene.data.objects.objects):
-        slots = np.flatnonzero(shown & (numbers == number)).astype(np.int32)
-        if obj is not None and len(slots):
-            placed.add(as_shown(obj), placing_poses(arrays, slots))
+    slots = np.flatnonzero(shown & (numbers >= 0)).astype(np.int32)
+    slots = slots[np.argsort(numbers[slots], kind="stable")]  # those of each object in a row
+    poses = placing_poses(arrays, slots)
+    shares, starts = np.unique(numbers[slots], return_index=True)
+    ends = [*starts[1:].tolist(), len(slots)]
+    for number, start, end in zip(shares.tolist(), starts.tolist(), ends, strict=False):
+        obj = scene.data.objects.objects[number]
+        if obj is not None:
+            placed.add(as_shown(obj), poses[start:end])
     return placed.support if placed.count else None
 
 
@@ -85,7 +90,7 @@ class _Placed:
         self.count += len(poses)
         self._meshes += [mesh] * len(poses)
         self._poses.append(poses)
-        self._boxes.append(np.broadcast_to(box, (len(poses), 2, 3)))
+        self._boxes.append(np.asarray(box)[np.newaxis].repeat(len(poses), axis=0))
 
     def support(self, directions: np.ndarray) -> np.ndarray:
         """Return the support, searching vertices only where the boxes extend farthest."""

@@ -1,7 +1,8 @@
 """The stages of the things that a renderer drew last, so that the next picture stages none anew.
 
 In: things, and how they are drawn. Out: a `ViewRenderer` and the first view of each, the same ones
-until the thing changes.
+until the thing changes. If nodes of a dressed scene only move, its `ViewRenderer` stays, and renews
+what depends on where they are.
 """
 
 from __future__ import annotations
@@ -28,7 +29,6 @@ from .look import Look
 from .overlays.numbers import NO_MARKS, Marks
 from .view_renderer import ViewRenderer
 from .viewed_thing import settings_for, viewed_of
-from .views.first_view import FirstView
 from .views.viewpoint import Viewpoint
 
 #: Number of stages that a renderer keeps.
@@ -44,6 +44,9 @@ class Stage(NamedTuple):
         It is held, so that no other thing gets its identity.
     has_changed : callable
         Returns whether the thing has changed since, or whether changes cannot be noticed.
+    take_moves : callable
+        Returns whether nothing more has happened than that nodes moved; then they are where they
+        are, and no longer count as changed.
     view_renderer : ViewRenderer
     first : Viewpoint
         Its first view, as of ``engine3d render``.
@@ -51,6 +54,7 @@ class Stage(NamedTuple):
 
     thing: Any
     has_changed: Callable[[], bool]
+    take_moves: Callable[[], bool]
     view_renderer: ViewRenderer
     first: Viewpoint
 
@@ -93,8 +97,10 @@ class KeptStages:
         identity = thing if isinstance(thing, (str, bytes)) else id(thing)
         key = identity, tuple(sorted(options.items()))
         known = self._kept.get(key)
-        if known is None or known.has_changed():
+        if known is None:
             known = self._kept[key] = self._staged(thing, options, NO_MARKS)
+        elif known.has_changed():
+            known = self._kept[key] = _moved(known) or self._staged(thing, options, NO_MARKS)
         self._kept.move_to_end(key)
         while len(self._kept) > KEPT:
             self._kept.popitem(last=False)
@@ -103,7 +109,7 @@ class KeptStages:
     @np.errstate(all="ignore")
     def _staged(self, thing: Any, options: Mapping[str, Any], marks: Marks) -> Stage:
         files: dict[str, FileState] = {}
-        has_changed = _noticing(thing, files)  # from before the thing is read
+        noticing = _noticing(thing, files)  # from before the thing is read
         if isinstance(thing, str):
             files[thing] = FileState(thing)
         with found_files(lambda path: files.setdefault(path, FileState(path))):
@@ -123,12 +129,23 @@ class KeptStages:
             renderer=self._renderer,
             **self._drawing,
         )
-        first = FirstView().place(view_renderer, turns=False)
-        return Stage(thing, has_changed, view_renderer, first)
+        return Stage(thing, *noticing, view_renderer, view_renderer.filling_view())
 
 
-def _noticing(thing: Any, files: Mapping[str, FileState]) -> Callable[[], bool]:
-    """Return a function that tells whether a thing has changed since; True if none would show.
+@np.errstate(all="ignore")
+def _moved(stage: Stage) -> Stage | None:
+    """Return a stage for where the nodes of its scene are now; None if more has changed."""
+    view_renderer = stage.view_renderer
+    if not view_renderer.staging.can_renew or not stage.take_moves():
+        return None
+    view_renderer.renew()
+    return stage._replace(first=view_renderer.filling_view())
+
+
+def _noticing(
+    thing: Any, files: Mapping[str, FileState]
+) -> tuple[Callable[[], bool], Callable[[], bool]]:
+    """Return the `has_changed` and `take_moves` of a stage.
 
     Parameters
     ----------
@@ -137,14 +154,18 @@ def _noticing(thing: Any, files: Mapping[str, FileState]) -> Callable[[], bool]:
         The states of the files that a path leads to, found while it is opened.
     """
     if isinstance(thing, str):
-        return lambda: any(file.changed() for file in files.values())
+        return lambda: any(file.changed() for file in files.values()), _never
     if isinstance(thing, Scene):
         changes = SceneChanges(thing)
-        return lambda: changes.any
+        return lambda: changes.any, changes.take_moves
     if not isinstance(thing, (Mesh, InstancedMesh)):
-        return lambda: True
+        return lambda: True, _never
     before = _versions(thing)
-    return lambda: _versions(thing) != before
+    return lambda: _versions(thing) != before, _never
+
+
+def _never() -> bool:
+    return False
 
 
 def _versions(thing: Mesh | InstancedMesh) -> tuple[Any, ...]:

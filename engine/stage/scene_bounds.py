@@ -12,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .._native.scene_graph import SHOWN
 from ..base import linalg
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
@@ -24,6 +25,7 @@ from .views.viewpoint import Sphere
 #: Number of bands with which `turning_outline` follows a scene.
 OUTLINE_BANDS = 24
 OUTLINE_ANGLES = 24
+_SLACK = 1e-12  # more than the rounding of boxes and distances, relative to them
 
 
 def bounding_sphere(scene: Scene) -> Sphere:
@@ -35,10 +37,32 @@ def bounding_sphere(scene: Scene) -> Sphere:
     low, high = scene.bounds
     center = (low + high) / 2
     farthest = 0.0
-    for points in _world_points(scene):
-        offsets = points - center
-        farthest = max(farthest, float(linalg.dot(offsets, offsets).max(initial=0.0)))
+    slots, reaches = _reaches(scene, center)
+    for slot, reach in zip(slots.tolist(), reaches.tolist(), strict=True):
+        if reach < farthest:
+            break
+        for points in _points_of(scene.data.arrays.nodes[slot]):
+            offsets = points - center
+            farthest = max(farthest, float(linalg.dot(offsets, offsets).max(initial=0.0)))
     return Sphere(tuple(center.tolist()), math.sqrt(farthest) or 1.0)
+
+
+def _reaches(scene: Scene, center: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the slots of visible nodes, farthest first, and squared distances that all exceed.
+
+    No vertex is farther from the centre than its node's (N,) float64; where that is unknown, it is
+    infinite.
+    """
+    arrays = scene.data.arrays
+    columns, count = arrays.columns, arrays.count
+    slots = np.flatnonzero(columns["flags"][:count] & SHOWN)
+    boxes = columns["bounds"][slots, :6].reshape(-1, 2, 3)
+    with np.errstate(over="ignore", invalid="ignore"):
+        sides = np.abs(boxes - center) + np.abs(boxes) * _SLACK
+        reaches = linalg.dot(*[sides.max(axis=1) * (1.0 + _SLACK)] * 2)
+    reaches[~np.isfinite(reaches)] = np.inf
+    order = np.argsort(-reaches, kind="stable")
+    return slots[order], reaches[order]
 
 
 def sphere_of_box(box: np.ndarray) -> Sphere:
@@ -102,11 +126,17 @@ def _world_points(scene: Scene) -> Iterator[np.ndarray]:
     """Yield the finite vertices of visible meshes, (N, 3) in world space; boxes for instances."""
     scene.data.update()
     for node in scene.nodes:
-        points = _outline(node) if node.shown else None
-        if points is not None:
-            with np.errstate(over="ignore", invalid="ignore"):
-                points = linalg.transform_points(placing_pose(node), points)
-            yield points[np.isfinite(points).all(axis=1)]
+        if node.shown:
+            yield from _points_of(node)
+
+
+def _points_of(node: Node) -> Iterator[np.ndarray]:
+    """Yield the finite vertices of a node's mesh, as `_world_points`; nothing without a mesh."""
+    points = _outline(node)
+    if points is not None:
+        with np.errstate(over="ignore", invalid="ignore"):
+            points = linalg.transform_points(placing_pose(node), points)
+        yield points[np.isfinite(points).all(axis=1)]
 
 
 def _outline(node: Node) -> np.ndarray | None:

@@ -13,6 +13,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..base import linalg
+from ..model.geometry.mesh import Mesh
 from ..model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
@@ -156,8 +157,30 @@ class Staging:
         if lights in self.lighting.names:
             self.lighting.choose(lights)
         self._studio = self._make_studio()
-        self._chooses_theme = self._backdrop == "auto" and self._shows_theme()
+        self._await_theme()
         self.show_grid(self.settings.grid)
+
+    def _await_theme(self) -> None:
+        """Let the next frame choose the theme, if the look leaves it open."""
+        self._chooses_theme = self._backdrop == "auto" and self._shows_theme()
+
+    @property
+    def can_renew(self) -> bool:
+        """Whether `renew` makes the stage the one that would be built anew.
+
+        Lights of a scene's own, a light that the user placed, and fog depend on more.
+        """
+        settings = self.settings
+        return self.viewed.themed and settings.light_position is None and settings.fog is None
+
+    def renew(self) -> None:
+        """Follow a scene whose nodes moved, hid or showed; what else there is stays."""
+        self.box.fit(self.viewed)
+        if self._studio is not None:
+            self._studio.fit(self.viewed.focus)
+        if self._grid is not None:
+            self._grid.object = self._lines()
+        self._await_theme()
 
     def _light(self) -> Lighting | OnlyLight:
         viewed, settings = self.viewed, self.settings
@@ -272,10 +295,13 @@ class Staging:
         """Switch the grid under the model on or off."""
         self.settings.grid = shown
         if shown and self._grid is None:
-            lines = grid(self._lowest(), self.viewed.bounds, UP_DIRECTIONS[self.up])
-            self._grid = self.scene.beside.add(lines, name="grid")
+            self._grid = self.scene.beside.add(self._lines(), name="grid")
         if self._grid is not None:
             self._grid.visible = shown
+
+    def _lines(self) -> Mesh:
+        """Return the grid under the model."""
+        return grid(self._lowest(), self.viewed.bounds, UP_DIRECTIONS[self.up])
 
     def _lowest(self) -> float:
         """Return the scene's lowest extent along the up direction, over all its motion."""

@@ -71,7 +71,11 @@ class Studio:
         self._ground: Node | None = None
         self._square = _square()
         self._shadow = GroundShadow(staged, self._square, self._axes)
-        places = staged.scene.bounds if places is None else places
+        self.fit(places)
+
+    def fit(self, places: np.ndarray | None) -> None:
+        """Stand the ground under a scene that moved; ``places`` are those of the studio."""
+        places = self._staged.scene.bounds if places is None else places
         self._usual = float(linalg.dot(places, self._axes[1]).min())
 
     @property

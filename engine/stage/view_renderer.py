@@ -129,6 +129,7 @@ class ViewRenderer:
         self.screen_scale = 1
         self.turned_up: str | None = None
         self._renderers: dict[int, Renderer] = {}
+        self._small: Renderer | None = None  # of pictures of the model alone
         self.settings = settings
         self.show(viewed)
 
@@ -158,18 +159,34 @@ class ViewRenderer:
             look = settings.look.options if viewed.themed else {}
             self.appearance = Appearance(**(look | viewed.appearance | settings.appearance))
         self._blanks = BlankWatch()
-        self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
-        self._points = count_points(viewed.scene)
+        self._measure(viewed)
         up = self.turned_up or settings.up or viewed.up
         self.staging = Staging(viewed, settings, up, self._transparent, lights)
         self._find_outline()
 
-    def _find_outline(self) -> None:
+    def _measure(self, viewed: ViewedScene) -> None:
+        """Measure a scene in its current pose."""
+        self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
+        self._points = count_points(viewed.scene)
+
+    def renew(self) -> None:
+        """Follow a scene whose nodes moved, hid or showed, as if it were shown anew.
+
+        Only stages that `Staging.can_renew` can do so.
+        """
+        viewed = self.viewed
+        viewed.__dict__.pop("bounds", None)  # the next use measures them
+        self._measure(viewed)
+        self.staging.renew()
+        self._outline = None
+
+    def _find_outline(self) -> np.ndarray:
         viewed = self.viewed
         outline = viewed.focus
         if outline is None:
             outline = turning_outline(viewed.scene, UP_DIRECTIONS[self.staging.up])
-        self._outline = outline
+        self._outline: np.ndarray | None = outline
+        return outline
 
     def turn_up(self, up: str) -> None:
         """Change the up direction of the scene."""
@@ -209,14 +226,19 @@ class ViewRenderer:
         width, height = self.size
         scale = max(width, height) / 240
         size = max(1, round(width / scale)), max(1, round(height / scale))
-        options = self._options.copy()
-        options["antialiasing"] = "ssaa"
-        with Renderer(size, **options) as renderer:
-            try:
-                look = self._appearance()
-                return renderer.render(scene, (self._camera(view), view.pose()), **look).color
-            finally:
-                scene.background = background
+        try:
+            look, camera = self._appearance(), (self._camera(view), view.pose())
+            return self._small_renderer(size).render(scene, camera, **look).color
+        finally:
+            scene.background = background
+
+    def _small_renderer(self, size: tuple[int, int]) -> Renderer:
+        if self._small is None:
+            options = self._options.copy()
+            options["antialiasing"] = "ssaa"
+            self._small = Renderer(size, **options)
+        self._small.resize(size)
+        return self._small
 
     def resize(self, size: tuple[int, int]) -> None:
         """Change the size of future frames."""
@@ -235,17 +257,28 @@ class ViewRenderer:
 
         By default the longer side has 38 degrees; scenes to walk in have a wider view.
         """
+        view = self._view_direction(yfov)
+        self.frame(view)
+        return view
+
+    def filling_view(self) -> Viewpoint:
+        """Return the first view of the scene, which it fills in its current pose."""
+        view = self._view_direction(None)
+        self.fill(view)
+        return view
+
+    def _view_direction(self, yfov: float | None) -> Viewpoint:
+        """Return the first view, for which a place is still to be found."""
         if yfov is None:
             walks = self.viewed.walker is not None
             yfov = WALKING_YFOV if walks else lens_for(self.aspect)
         viewed, up = self.viewed, UP_DIRECTIONS[self.staging.up]
-        view = Viewpoint(np.zeros(3), 1.0, viewed.azimuth, viewed.elevation, up, yfov)
-        self.frame(view)
-        return view
+        return Viewpoint(np.zeros(3), 1.0, viewed.azimuth, viewed.elevation, up, yfov)
 
     def frame(self, view: Viewpoint) -> None:
         """Move a view along its direction until the whole scene fits."""
-        view.frame_beside(self._outline, self.aspect, self._taken())
+        outline = self._find_outline() if self._outline is None else self._outline
+        view.frame_beside(outline, self.aspect, self._taken())
 
     def fill(self, view: Viewpoint) -> None:
         """Move a view so that the scene, in its first pose, fills the picture.
@@ -419,6 +452,9 @@ class ViewRenderer:
         """Free the renderers' memory."""
         while self._renderers:
             self._renderers.popitem()[1].close()
+        if self._small is not None:
+            self._small.close()
+            self._small = None
 
     def __enter__(self) -> ViewRenderer:
         return self

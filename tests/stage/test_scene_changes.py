@@ -7,6 +7,7 @@ import engine3d as e3d
 from engine3d.model.scene import scene_changes
 from engine3d.model.scene.scene_changes import SceneChanges
 from engine3d.stage import ground_shadow
+from engine3d.stage.staging import Staging
 
 SIZE = (64, 48)
 
@@ -80,6 +81,118 @@ def test_each_change_is_noticed_once_it_was_made(name):
     CHANGES[name](made)
     assert changes.any and changes.any
     assert not SceneChanges(made).any
+
+
+def moving_scene():
+    """Return a scene with a group, a deformed mesh, points, and all that `scene` has."""
+    made = scene()
+    group = made.add(name="group", translation=(0, 0.5, 0))
+    joint = made.add(name="joint", parent=group)
+    pole = e3d.cylinder(0.2, 2.0, 8)
+    weights = np.tile(np.float32([1, 0, 0, 0]), (len(pole.positions), 1))
+    joints = np.zeros(weights.shape, np.uint16)
+    pole = e3d.Mesh(pole.positions, pole.faces, joints=joints, weights=weights)
+    made.add(pole, name="pole", translation=(-2, 0, 0)).skin = e3d.motion.Skin([joint])
+    dots = e3d.Mesh(np.eye(3, dtype=np.float32), points=np.arange(3))
+    made.add(dots, name="dots", parent=group)
+    return made
+
+
+def turn(node, random):
+    node.rotation = random.normal(size=4)
+
+
+def sink(node, random):
+    node.translation = random.uniform(-3, 1, 3)
+
+
+def swell(node, random):
+    node.scale = random.uniform(0.3, 2.0, 3)
+
+
+def hide(node, random):
+    node.visible = not node.visible
+
+
+def bear(node, random):
+    node.scene.add(e3d.box(), parent=node, translation=random.uniform(-2, 2, 3))
+
+
+def leave(node, random):
+    if not node.name:
+        node.scene.remove(node)
+
+
+def move_away(node, random):
+    if node.name != "group":
+        node.parent = None if node.parent else node.scene.find("group")
+
+
+def dye(node, random):
+    ball(node.scene).materials[0].color = random.integers(0, 255, 3)
+
+
+def stretch(node, random):
+    ball(node.scene).positions = ball(node.scene).positions * random.uniform(0.8, 1.2)
+
+
+def paper(node, random):
+    node.scene.background = (0, 0, 0) if random.random() < 0.6 else (9, 90, 200)
+
+
+def strew(node, random):
+    poses = random.uniform(0.2, 2.0, (random.integers(1, 4), 4))
+    colors = random.integers(0, 255, (len(poses), 3), np.uint8)
+    node.scene.find("boxes").object.replace(poses, colors)
+
+
+MOVES = (turn, sink, sink, swell, hide, strew)
+OTHERS = (bear, leave, move_away, dye, stretch, paper)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_kept_renderer_draws_what_a_new_one_does(seed):
+    random, made = np.random.default_rng(seed), moving_scene()
+    names = ("color", "object_id", "depth")
+    with e3d.Renderer(SIZE) as kept:
+        for _ in range(10):
+            for _ in range(random.integers(1, 4)):
+                changes = OTHERS if random.random() < 0.2 else MOVES
+                changes[random.integers(len(changes))](random.choice(list(made.nodes)), random)
+            camera = None
+            if random.random() < 0.5:
+                camera = e3d.frame_scene(made, direction=random.normal(size=3))
+            old = kept.render(made, camera, outputs=names)
+            with e3d.Renderer(SIZE) as fresh:
+                new = fresh.render(made, camera, outputs=names)
+            for name in names:
+                assert np.array_equal(getattr(old, name), getattr(new, name), equal_nan=True)
+
+
+def test_a_scene_whose_nodes_move_is_not_staged_again(monkeypatch):
+    made, stagings = moving_scene(), []
+    build = Staging.__init__
+    monkeypatch.setattr(Staging, "__init__", lambda *given: stagings.append(given) or build(*given))
+    random = np.random.default_rng(3)
+    with e3d.Renderer(SIZE) as kept:
+        for move in (turn, sink, swell, hide, hide):
+            move(made.find("group"), random)
+            sink(made.find("joint"), random)
+            kept.render(made)
+        assert len(stagings) == 1
+        bear(made.find("group"), random)
+        kept.render(made)
+    assert len(stagings) == 2
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_only_moves_are_taken(name):
+    made = scene()
+    changes = SceneChanges(made)
+    CHANGES[name](made)
+    is_move = name in ("a node moves", "a node hides", "instances move")
+    assert changes.take_moves() == is_move
+    assert changes.any == (not is_move)
 
 
 def test_a_still_scene_is_not_visited(monkeypatch):

@@ -33,10 +33,21 @@ class SceneChanges:
         """Whether the scene, or anything that it draws, has changed."""
         return bool(self._watch.found()) or self._look() != self._state
 
-    def _look(self) -> tuple[Any, ...]:
-        """Return what the scene itself counts."""
+    def take_moves(self) -> bool:
+        """Forget all changes if they are only such of places; return whether they are.
+
+        Nodes and instances may move, and nodes deform, hide or show.
+        """
+        content, _ = now = self._look()
+        if self._watch.found() or content != self._state[0]:
+            return False
+        self._state = now
+        return True
+
+    def _look(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """Return what the scene itself counts: of its content, and of where that is."""
         scene, data = self._scene, self._scene.data
         data.update()
         moment = None if data.posing is None else data.posing.moment
         values = tuple(getattr(scene, name) for name in SCENE_VALUES)
-        return data.census(), data.arrays.changes, data.objects.version, moment, values
+        return (data.census(), data.objects.version, values), (data.arrays.changes, moment)

@@ -28,9 +28,13 @@ class BoxGrid:
 
     def __init__(self, viewed: ViewedScene, staged: StagedScene) -> None:
         self._staged = staged
+        self._node: Node | None = None
+        self.fit(viewed)
+
+    def fit(self, viewed: ViewedScene) -> None:
+        """Enclose a scene in its current pose."""
         low, high = viewed.scene.bounds
         self._grid = AxesGrid(low, high, np.array(viewed.origin), viewed.unit)
-        self._node: Node | None = None
         self._far: tuple[bool, bool, bool] | None = None
 
     @property

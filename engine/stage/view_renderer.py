@@ -178,14 +178,14 @@ class ViewRenderer:
         viewed.__dict__.pop("bounds", None)  # the next use measures them
         self._measure(viewed)
         self.staging.renew()
-        self._outline = None
+        self._outline: np.ndarray | None = None
 
     def _find_outline(self) -> np.ndarray:
         viewed = self.viewed
         outline = viewed.focus
         if outline is None:
             outline = turning_outline(viewed.scene, UP_DIRECTIONS[self.staging.up])
-        self._outline: np.ndarray | None = outline
+        self._outline = outline
         return outline
 
     def turn_up(self, up: str) -> None:

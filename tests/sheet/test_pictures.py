@@ -137,7 +137,7 @@ def test_cameras_are_in_the_coordinates_of_the_file(tmp_path):
 
 
 def test_what_is_no_model_and_no_keyword():
-    with pytest.raises(e3d.InvalidArgumentError, match="models must be paths, scenes, nodes, meshes or points"):
+    with pytest.raises(e3d.InvalidArgumentError, match="models must be paths, scenes"):
         e3d.sheets.contact_sheet([3])
     with pytest.raises(TypeError, match="color_by"):
         e3d.sheets.contact_sheet(e3d.box(), colour_by="x")

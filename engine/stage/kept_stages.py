@@ -117,7 +117,7 @@ class KeptStages:
         if viewed is None:
             raise InvalidArgumentError(
                 "a path, a scene, a node, a mesh or points can be drawn, "
-                f"not {type(thing).__name__}"
+                f"not {type(thing).__name__}; to draw several, add them to a Scene"
             )
         show_numbers(viewed, marks)
         settings = settings_for(self._look, options, self._material, marks)

@@ -298,3 +298,23 @@ def test_gltf_says_how_textures_are_no_longer_read(tmp_path):
     told = said_of(mesh, tmp_path / "a.glb")
     assert "gltf files do not hold anisotropy of 2 textures" in told
     assert "gltf files do not hold lod_bias of 1 texture" in told
+
+
+OF_SCENES = {
+    "ambient": "red",
+    "animator": e3d.Animator,
+    "background": "red",
+    "environment": e3d.Environment.studio(),
+    "exposure": 1.0,
+    "fog": e3d.Fog("red", 1.0, 9.0),
+    "light_clamp": (0.0, 1.0),
+}
+
+
+@pytest.mark.parametrize("name", OF_SCENES)
+def test_what_gltf_does_not_hold_of_a_scene_is_told(tmp_path, name):
+    scene, value = e3d.Scene(), OF_SCENES[name]
+    assert said_of(scene, tmp_path / "usual.glb") == []
+    setattr(scene, name, value(scene) if callable(value) else value)
+    told = said_of(scene, tmp_path / "a.glb")
+    assert told == [f"gltf files do not hold {name.replace('_', ' ')}"]

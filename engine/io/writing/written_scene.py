@@ -50,6 +50,8 @@ _LIGHTS = (DirectionalLight, PointLight, SpotLight)
 _REACH = ("range", "inner_cone_angle", "outer_cone_angle")  # properties only some lights have
 _IDENTITY = {"translation": (0.0, 0.0, 0.0), "rotation": (0.0, 0.0, 0.0, 1.0)}
 _IDENTITY["scale"] = (1.0, 1.0, 1.0)
+# What glTF does not hold of a scene; with the environment go its intensity, rotation and blur.
+_NOT_HELD = ("background", "ambient", "light_clamp", "exposure", "fog", "environment", "animator")
 _Thing = TypeVar("_Thing")
 
 
@@ -311,7 +313,7 @@ class _Making:
         usual, scene = Scene(), self._scene
         lost = [
             name.replace("_", " ")
-            for name in ("background", "ambient", "light_clamp", "exposure", "fog")
+            for name in _NOT_HELD
             if not _are_equal(getattr(scene, name, None), getattr(usual, name, None))
         ]
         lost += ["colliders"] if any(node.collider is not None for node in nodes) else []

@@ -4,7 +4,6 @@ import io
 
 import numpy as np
 import pytest
-import trimesh
 from sheet.conftest import SIZE, part
 
 import engine3d as e3d
@@ -60,7 +59,7 @@ THINGS = {
     "node": lambda folder: scene().nodes[0],
     "instances": lambda folder: e3d.InstancedMesh(e3d.box(), POSES),
     "points": points,
-    "trimesh": lambda folder: trimesh.creation.box((1, 2, 3)),
+    "trimesh": lambda folder: pytest.importorskip("trimesh").creation.box((1, 2, 3)),
 }
 
 

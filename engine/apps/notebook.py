@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._native.images import encode_png
-from ..base.calls import refuse_unknown
+from ..base.calls import keywords_of, refuse_unknown
 from ..base.image_size import check_size
 from ..errors import InvalidArgumentError
 from ..model.geometry.mesh import Mesh
@@ -45,7 +45,6 @@ except ImportError as error:
 
 __all__ = ["View"]
 
-_KEYWORDS = ("size", "up", "update", "period", "quality")
 _BUTTONS = {1: "left", 2: "right", 3: "middle"}
 _KEYS = {
     " ": "Space",
@@ -113,7 +112,7 @@ class View(RemoteFrameBuffer):
         quality: int = 80,
         **marks: Unpack[MarkKeywords],
     ) -> None:
-        refuse_unknown(View, marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
+        refuse_unknown(View, marks, (*keywords_of(View.__init__), *MarkKeywords.__annotations__))
         width, height = check_size(size)
         check_motion(update, "update")
         taken = take_marks(dict(marks))

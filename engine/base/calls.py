@@ -120,6 +120,13 @@ def _refuse_two_sides(
         ) from None
 
 
+@functools.cache
+def keywords_of(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Return the names that a function takes as keywords alone, but for those of ``**``."""
+    parameters = inspect.signature(function).parameters.values()
+    return tuple(each.name for each in parameters if each.kind is each.KEYWORD_ONLY)
+
+
 def refuse_unknown(owner: type | str, keywords: Iterable[str], known: Iterable[str]) -> None:
     """Raise a TypeError, with a hint, for the first unknown keyword.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..base.calls import refuse_unknown
+from ..base.calls import keywords_of, refuse_unknown
 from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..rendering.frame import Frame
@@ -20,12 +20,6 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ..rendering.camera_choice import CameraChoice
-
-#: The keywords of `render` for its renderer.
-_RENDERER_KEYWORDS = (
-    *("size", "look", "material", "backend", "threads"),
-    *("color_space", "samples", "antialiasing"),
-)
 
 
 class PictureKeywords(RenderKeywords, DrawingKeywords, total=False):
@@ -75,7 +69,7 @@ def render(
     >>> e3d.render("model.glb").save("model.png")
     >>> e3d.render(e3d.torus(), look="plain", material=e3d.Material(color=(200, 40, 40)))
     """
-    refuse_unknown("render", options, (*PictureKeywords.__annotations__, *_RENDERER_KEYWORDS))
+    refuse_unknown("render", options, (*PictureKeywords.__annotations__, *keywords_of(render)))
     given: Any = options
     with Renderer(
         size,

@@ -130,6 +130,7 @@ class ViewRenderer:
         self.turned_up: str | None = None
         self._renderers: dict[int, Renderer] = {}
         self._small: Renderer | None = None  # of pictures of the model alone
+        self._outline: np.ndarray | None = None  # None: to be found
         self.settings = settings
         self.show(viewed)
 
@@ -175,10 +176,10 @@ class ViewRenderer:
         Only stages that `Staging.can_renew` can do so.
         """
         viewed = self.viewed
-        viewed.__dict__.pop("bounds", None)  # the next use measures them
+        viewed.forget_bounds()
         self._measure(viewed)
         self.staging.renew()
-        self._outline: np.ndarray | None = None
+        self._outline = None
 
     def _find_outline(self) -> np.ndarray:
         viewed = self.viewed

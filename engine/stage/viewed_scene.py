@@ -131,6 +131,10 @@ class ViewedScene:
         """The bounding sphere of the scene in its first pose, in world space."""
         return bounding_sphere(self.scene)
 
+    def forget_bounds(self) -> None:
+        """Measure the bounds anew when they are used next."""
+        self.__dict__.pop("bounds", None)
+
     def metadata(self) -> list[str]:
         """Return the file's contents, line by line."""
         return [self.title, *self.details]

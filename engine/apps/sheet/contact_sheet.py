@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..._native.images import encode_png
 from ...base import linalg
-from ...base.calls import checks_types, refuse_unknown
+from ...base.calls import checks_types, keywords_of, refuse_unknown
 from ...base.files.atomic_write import AtomicFiles, checked_path
 from ...base.linalg.vectors import as_vectors
 from ...choices import Backend
@@ -36,12 +36,6 @@ from .views import DEFAULT_VIEWS, check_views
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-#: The keywords of `contact_sheet` besides those of numbers.
-_KEYWORDS = (
-    *("views", "sections", "size", "up", "unit", "root"),
-    *("look", "material", "backend", "threads"),
-)
 
 
 class Sheet:
@@ -313,7 +307,9 @@ def contact_sheet(
     >>> sheet = contact_sheet("part.stl", sections="x=50%", unit="mm")
     >>> sheet.save("part.png", report="part.json")
     """
-    refuse_unknown("contact_sheet", marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
+    refuse_unknown(
+        "contact_sheet", marks, (*keywords_of(contact_sheet), *MarkKeywords.__annotations__)
+    )
     specs = check_views(views, sections)
     opened = open_sources(models, root)
     drawing = {"backend": backend, "threads": threads}

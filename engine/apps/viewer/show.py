@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...base.calls import checks_types, refuse_unknown
+from ...base.calls import checks_types, keywords_of, refuse_unknown
 from ...base.image_size import check_size
 from ...base.numbers import shown
 from ...choices import PixelFormat
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 SIZE = (1280, 720)
-_KEYWORDS = ("size", "title", "up", "update", "period", "format")
 
 
 @checks_types
@@ -100,7 +99,7 @@ def show(
     >>> e3d.show(e3d.torus())
     >>> e3d.show(e3d.render(scene, mode="depth"))
     """
-    refuse_unknown("show", marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
+    refuse_unknown("show", marks, (*keywords_of(show), *MarkKeywords.__annotations__))
     taken = take_marks(dict(marks))
     motion = {"title": title, "up": up, "update": update, "period": period}
     try:

@@ -99,7 +99,7 @@ def view_of_scene(view_renderer: ViewRenderer) -> Viewpoint | None:
 
     The theme is then the one of pictures by `engine3d.render`, whatever the camera sees.
     """
-    view_renderer.choose_theme(FirstView().place(view_renderer, turns=False))
+    view_renderer.choose_theme(view_renderer.filling_view())
     node = view_renderer.viewed.scene.data.camera_node()
     if node is None:
         return None

@@ -35,7 +35,8 @@ np.infty = np.inf
 import trimesh, pyrender"""
 }
 # What the small model and the large one have in common: a function that draws `path` from three
-# units away, turned by `angle`, and returns the picture; `write(path)` writes the first one.
+# units away, turned by `angle`, and returns the picture; `write(path)` draws the first one, once,
+# and writes it.
 DRAWING = {
     "engine3d": """
 def opened(path, size):
@@ -50,7 +51,10 @@ def opened(path, size):
         eye = 3 * math.sin(angle), 0.5, 3 * math.cos(angle)
         frame = renderer.render(scene, (camera, engine3d.look_at(eye, (0, 0, 0))), out=frame)
         return frame.color
-    return draw, lambda path: frame.save(path)""",
+    def write(path):
+        draw(0.0)
+        frame.save(path)
+    return draw, write""",
     "f3d": """
 def opened(path, size):
     engine = f3d.Engine.create(True)
@@ -62,18 +66,18 @@ def opened(path, size):
         engine.window.camera.azimuth(math.degrees(angle - last))
         image, last = engine.window.render_to_image(), angle
         return image
-    return draw, lambda path: image.save(path)""",
+    return draw, lambda path: draw(0.0).save(path)""",
     "pyvista": """
 def opened(path, size):
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.add_mesh(pyvista.read(path))
-    plotter.show(auto_close=False)
-    last = 0.0
+    last = None
     def draw(angle):
         nonlocal last
-        plotter.camera.azimuth += math.degrees(angle - last)
+        if last is not None:  # the first screenshot renders, later ones don't
+            plotter.camera.azimuth += math.degrees(angle - last)
+            plotter.render()
         last = angle
-        plotter.render()
         return plotter.screenshot(return_img=True)
     return draw, plotter.screenshot""",
     "open3d": """
@@ -88,7 +92,7 @@ def opened(path, size):
         eye = [3 * math.sin(angle), 0.5, 3 * math.cos(angle)]
         renderer.setup_camera(40.0, [0, 0, 0], eye, [0, 1, 0])
         return numpy.asarray(renderer.render_to_image())
-    return draw, lambda path: open3d.io.write_image(path, renderer.render_to_image())""",
+    return draw, lambda path: open3d.io.write_image(path, open3d.geometry.Image(draw(0.0)))""",
     "pyrender": """
 def opened(path, size):
     scene = pyrender.Scene()
@@ -96,17 +100,14 @@ def opened(path, size):
     camera = scene.add(pyrender.PerspectiveCamera(0.7))
     scene.add(pyrender.DirectionalLight(intensity=3))
     renderer = pyrender.OffscreenRenderer(*size)
-    image = None
     def draw(angle):
-        nonlocal image
         sine, cosine = math.sin(angle), math.cos(angle)
         pose = [[cosine, 0, sine, 3 * sine], [0, 1, 0, 0], [-sine, 0, cosine, 3 * cosine]]
         scene.set_pose(camera, numpy.array([*pose, [0, 0, 0, 1]], float))
-        image = renderer.render(scene)[0]
-        return image
+        return renderer.render(scene)[0]
     def write(path):
         from PIL import Image
-        Image.fromarray(image).save(path)
+        Image.fromarray(draw(0.0)).save(path)
     return draw, write""",
     "bpy": """
 def opened(path, size):
@@ -119,13 +120,13 @@ def opened(path, size):
     scene.camera, scene.render.engine = camera, "BLENDER_WORKBENCH"
     scene.display.render_aa = "OFF"
     scene.render.resolution_x, scene.render.resolution_y = size
-    def draw(angle):
+    def draw(angle, **options):
         camera.location = 3 * math.sin(angle), -3 * math.cos(angle), 0
         camera.rotation_euler = math.pi / 2, 0, angle
-        bpy.ops.render.render()  # its pixels are not an array: they are only to be had as a file
+        bpy.ops.render.render(**options)  # its pixels are no array: they can only be had as a file
     def write(path):
         scene.render.filepath = path
-        bpy.ops.render.render(write_still=True)
+        draw(0.0, write_still=True)
     return draw, write""",
 }
 LOADS = {
@@ -137,7 +138,7 @@ LOADS = {
 }
 JOBS = {
     "import": "",
-    "first": "draw, write = opened(small, (640, 480)); draw(0.0); write(written)",
+    "first": "draw, write = opened(small, (640, 480)); write(written)",
     "load": "mark(); {load}; mark()",
     "pictures": """
 mark(); draw, write = opened(large, (1280, 720)); picture = draw(0.0); mark()

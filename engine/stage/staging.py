@@ -26,7 +26,7 @@ from .look import THEMED, Look
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid
 from .overlays.grid_lines import grid
-from .overlays.theme import DARK, LIGHT, Theme
+from .overlays.theme import Theme, theme_named
 from .shadow_switch import switch_shadows
 from .stage_settings import Settings
 from .studio import BEHIND, Studio, theme_for
@@ -94,10 +94,9 @@ class Staging:
 
     def _take_theme(self) -> None:
         """Take the theme that the look names, if it names one."""
-        named = {"dark": DARK, "light": LIGHT}
-        background = self.settings.look.background
-        if isinstance(background, str) and background in named and not self.settings.keeps_theme:
-            self.theme = named[background]
+        named = theme_named(self.settings.look.background)
+        if named is not None and not self.settings.keeps_theme:
+            self.theme = named
 
     def _reading(self) -> Filtering:
         """Return how textures are read: as looks do, if the model wears one that adds something."""

@@ -20,7 +20,7 @@ from ...stage.coloring import show_numbers
 from ...stage.lighting import NO_LIGHTS, Lighting
 from ...stage.look import Look
 from ...stage.overlays.numbers import take_marks
-from ...stage.overlays.theme import DARK, LIGHT, Theme
+from ...stage.overlays.theme import LIGHT, Theme, theme_named
 from ...stage.renderer import Renderer as PictureRenderer
 from ...stage.scene_bounds import sphere_of_box
 from ...stage.studio import Studio, theme_for
@@ -121,9 +121,7 @@ class PanelRenderer:
         self._lighting.follow(pose)
         with Renderer(_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
-        themes = {"dark": (DARK,), "light": (LIGHT,)}
-        chosen = self._look.background if isinstance(self._look.background, str) else ""
-        self.paper = theme_for(color, themes.get(chosen, (LIGHT, DARK)))
+        self.paper = theme_named(self._look.background) or theme_for(color)
 
     def draw(
         self,

@@ -53,3 +53,8 @@ LIGHT = Theme(
     title=(20, 84, 170, 255),
 )
 THEMES = (DARK, LIGHT)
+
+
+def theme_named(name: object) -> Theme | None:
+    """Return the theme of a name; None if it is no name of a theme."""
+    return next((one for one in THEMES if isinstance(name, str) and one.name == name), None)

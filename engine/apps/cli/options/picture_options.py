@@ -145,7 +145,7 @@ def antialiasing(
 
 def theme(args) -> dict:
     """Return the fields of `Settings` set by ``--theme``."""
-    from ....stage.overlays.theme import THEMES
+    from ....stage.overlays.theme import theme_named
 
-    named = {theme.name: theme for theme in THEMES}.get(args.theme)
+    named = theme_named(args.theme)
     return {} if named is None else {"theme": named, "keeps_theme": True}

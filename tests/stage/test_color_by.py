@@ -120,6 +120,7 @@ def test_colour_maps():
     table = np.linspace(0, 255, 3 * SIZE).astype(np.uint8).reshape(SIZE, 3)
     assert (colormap(table) == table).all()
     assert (colormap(table / 255) == table).all()
+    assert colormap(["navy", "#f80", "White"]).tolist() == [[0, 0, 128], [255, 136, 0], [255] * 3]
     assert (colormap(lambda places: np.stack([places] * 4, axis=1))[[0, -1]] == [[0], [255]]).all()
     for wrong in (np.zeros(3), np.zeros((1, 3)), np.full((4, 3), 2.0), np.zeros((4, 3), int)):
         with pytest.raises(InvalidArgumentError, match="colormap"):

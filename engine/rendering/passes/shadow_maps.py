@@ -82,8 +82,8 @@ class ShadowMaps(Pass):
         self._kept: dict[int, _LightMaps] = {}
         # By light number: the views of its maps, and the inputs they were computed from.
         self._found: dict[int, tuple[tuple[object, ...], ShadowViews | None]] = {}
-        # By number of cascades: what the camera sees, and the inputs it was computed from.
-        self._seen: dict[int, tuple[tuple[object, ...], Sight]] = {}
+        # By number of cascades: the camera's view in slices, and the inputs it was cut from.
+        self._cut: dict[int, tuple[tuple[object, ...], Sight]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
         return options.mode == "lit" and shows_light(wanted)
@@ -136,22 +136,20 @@ class ShadowMaps(Pass):
 
     def _sight_of(self, cascades: int, picture: Picture) -> Sight:
         """Return the slices of the camera's view in which something is."""
-        arrays, view, bounds = picture.scene.data.arrays, picture.view, picture.scene.bounds
-        seen_from = view, bounds.tobytes(), cascades, arrays, arrays.updated
-        known = self._seen.get(cascades)
-        if known is not None and known[0] == seen_from:
-            return known[1]
-        sight = sight_of(view, bounds, cascades)
+        view, bounds = picture.view, picture.scene.bounds
+        cut_from = view, bounds.tobytes()
+        known = self._cut.get(cascades)
+        if known is None or known[0] != cut_from:
+            known = self._cut[cascades] = cut_from, sight_of(view, bounds, cascades)
+        arrays = picture.scene.data.arrays
         boxes = arrays.columns["bounds"][: arrays.count]
         low, high = boxes[:, :3], boxes[:, 3:6]
         shown = [
             one
-            for one in sight.slices
+            for one in known[1].slices
             if ((low <= one.box[1]) & (high >= one.box[0])).all(axis=1).any()
         ]
-        sight = sight._replace(slices=shown)
-        self._seen[cascades] = seen_from, sight
-        return sight
+        return known[1]._replace(slices=shown)
 
     def _update_light(
         self, number: int, light: DirectLight, views: ShadowViews, moment: Moment

@@ -138,7 +138,10 @@ def test_colour_maps():
         ({"color_by": "heat", "clim": (1, 1)}, "clim must be two finite numbers"),
         ({"color_by": "heat", "clim": 3}, "clim must be two numbers"),
         ({"color_by": "heat", "component": -3}, "component must be a whole number"),
-        ({"color_by": "heat", "colormap": "jet"}, "'jet' is neither a picture nor one of viridis"),
+        (
+            {"color_by": "heat", "colormap": "jet"},
+            "colormap 'jet' is neither a picture nor one of virid",
+        ),
         ({"color_by": "heat", "bar": "yes"}, "bar must be"),
     ],
 )

@@ -96,6 +96,8 @@ index = _whole(-1)
 component = _whole(-2)
 whole = _whole(0)
 count = _whole(1)
+#: Pictures of a series.
+picture_count = _whole(1, 100_000)
 #: Maximum anisotropy of textures.
 anisotropy = _whole(1, MAX_ANISOTROPY)
 ui_scale = _whole(1, MAX_UI_SCALE)

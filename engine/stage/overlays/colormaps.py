@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...base.near_words import meant
 from ...base.numbers import as_array
 from ...errors import InvalidArgumentError
 from ...io.loaders import load_texture
@@ -74,8 +75,8 @@ def colormap(name: ColormapLike) -> NDArray[np.uint8]:
     if not os.path.isfile(name):
         if "," in name:
             return _placed(name)
-        known = ", ".join(COLORMAPS)
-        raise InvalidArgumentError(f"{name!r} is neither a picture nor one of {known}")
+        known = ", ".join(COLORMAPS) + meant(name, COLORMAPS)
+        raise InvalidArgumentError(f"colormap {name!r} is neither a picture nor one of {known}")
     pixels = load_texture(name).pixels
     return np.ascontiguousarray(pixels[len(pixels) // 2, :, :3])
 

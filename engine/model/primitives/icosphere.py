@@ -60,7 +60,9 @@ def icosphere(radius: float = 0.5, subdivisions: int = 3) -> Mesh:
     )
 
 
-def _sphere(subdivisions: int) -> tuple[FloatArray, IntArray, FloatArray, IntArray]:
+def _sphere(
+    subdivisions: int,
+) -> tuple[FloatArray, npt.NDArray[np.int32], FloatArray, IntArray]:
     """Return the vertices of the unit sphere, its faces, texture coordinates, and point IDs."""
     points, faces = _icosahedron()
     for _ in range(subdivisions):
@@ -71,7 +73,12 @@ def _sphere(subdivisions: int) -> tuple[FloatArray, IntArray, FloatArray, IntArr
     vertices, index = np.unique(corners, axis=0, return_inverse=True)
     point_ids = vertices[:, 0].astype(np.intp)
     normals = points[point_ids]
-    return normals, index.reshape(-1, 3).astype(np.int32), vertices[:, 1:], point_ids
+    return (
+        normals,
+        index.reshape(-1, 3).astype(np.int32),
+        vertices[:, 1:].astype(np.float64),
+        point_ids,
+    )
 
 
 _kept_sphere = functools.cache(_sphere)

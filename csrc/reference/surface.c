@@ -16,15 +16,18 @@ static void find_planes(ref_surface *s, float dx, float dy)
         s->weight[k] = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
 }
 
-/* R19 and R105 */
-static void find_weights(const ref_scene *scene, ref_surface *s, const ref_place *at)
+/* R19, R105 and R190 */
+static void find_weights(const ref_scene *scene, ref_surface *s, const ref_place *at, const float beside[2])
 {
     float dx = (float)(at->x - s->piece->left), dy = (float)(at->y - s->piece->top);
+    int is_beside = beside[0] != 0.0f || beside[1] != 0.0f;
     find_planes(s, dx, dy);
     if (scene->pattern && !(s->weight[0] >= 0.0f && s->weight[1] >= 0.0f && s->weight[2] >= 0.0f))
         find_planes(s, dx + (float)scene->pattern->x[at->number] * (1.0f / 256.0f),
                     dy + (float)scene->pattern->y[at->number] * (1.0f / 256.0f));
-    for (int k = 0; k < 3; k++)
+    if (is_beside)
+        find_planes(s, s->dx + beside[0], s->dy + beside[1]);
+    for (int k = 0; k < 3 && !is_beside; k++)
         s->weight[k] = ref_max(s->weight[k], k == 0 ? E3D_LEAST_WEIGHT : 0.0f);
     s->r = 1.0f / ((s->weight[0] + s->weight[1]) + s->weight[2]);
     for (int k = 0; k < 3; k++)
@@ -160,8 +163,10 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     for (int c = 0; c < 3; c++)
         s->albedo[c] = primitive->material->color[c];
     s->alpha = primitive->material->alpha;
+    s->alpha_lod = 0;
     if (ref_slot_counts(&primitive->material->texture, s)) {
         float unit = ref_slot_sample(&primitive->material->texture, s, factor);
+        s->alpha_lod = ref_slot_alpha_lod(&primitive->material->texture, s);
         for (int c = 0; c < 3; c++)
             s->albedo[c] = factor[c] * (s->albedo[c] * unit);
         s->alpha = factor[3] * (s->alpha * unit);
@@ -178,12 +183,12 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     }
 }
 
-void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
+void ref_surface_beside(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const float beside[2], ref_surface *out)
 {
     out->piece = piece;
     out->casters = &scene->casters;
     out->instance = &scene->instances[piece->primitive.instance];
-    find_weights(scene, out, at);
+    find_weights(scene, out, at, beside);
     find_position(scene, out);
     find_lit_position(scene, out);
     find_normal(scene, out);
@@ -192,4 +197,10 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_pl
     ref_find_textures(scene, out);
     out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
     out->visibility = 1.0f; /* resolve.c sets it for surfaces that aren't blended */
+}
+
+void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
+{
+    static const float HERE[2] = {0.0f, 0.0f};
+    ref_surface_beside(scene, piece, at, HERE, out);
 }

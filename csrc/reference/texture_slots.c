@@ -38,6 +38,14 @@ float ref_slot_sample(const e3d_texture_use *use, const ref_surface *surface, fl
     return ref_texture_sample(e3d_texture_get_view(use->texture), surface, &at, out);
 }
 
+/* R190 */
+int32_t ref_slot_alpha_lod(const e3d_texture_use *use, const ref_surface *surface)
+{
+    ref_coordinates at;
+    ref_slot_coordinates(use, surface, &at);
+    return ref_texture_alpha_lod(e3d_texture_get_view(use->texture), surface, &at);
+}
+
 /* ---- values (R46) ---- */
 
 static float multiplied(const e3d_texture_use *use, const ref_surface *s, int channel, float factor)

@@ -200,9 +200,10 @@ class RenderOptions:
         Unit of line_width and point_size: pixels, or thousandths of the picture's height, so that a
         scene looks alike at every size; the result is clamped to 1 to 256 pixels.
     alpha_to_coverage : bool
-        With ``antialiasing="msaa"``: alpha of materials with ``alpha_mode="mask"`` determines how
-        many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets smooth
-        edges. Otherwise the alpha test keeps all samples or none.
+        With ``antialiasing="msaa"``: materials with ``alpha_mode="mask"`` cover as many of a
+        pixel's samples as lie on the side of the edge where alpha is above ``alpha_cutoff``, so
+        that foliage has edges as smooth as those of faces, and does not vanish in the distance.
+        Without it the alpha test keeps all samples of a pixel or none.
     ambient_occlusion : bool
         In mode "lit": darken ambient light in corners and hollows.
     ambient_occlusion_radius : float, optional
@@ -233,7 +234,7 @@ class RenderOptions:
     line_shape: LineShape = _choice("plain", _native.LINE_SHAPES, "line_shape")
     point_shape: PointShape = _choice("square", _native.POINT_SHAPES, "point_shape")
     size_unit: SizeUnit = _option("pixels", one_of(SIZE_UNITS))
-    alpha_to_coverage: bool = _option(False, flag, "alpha_to_coverage")
+    alpha_to_coverage: bool = _option(True, flag, "alpha_to_coverage")
     ambient_occlusion: bool = _option(False, flag)
     ambient_occlusion_radius: float | None = _option(None, optional_positive)
 

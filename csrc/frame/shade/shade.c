@@ -1,4 +1,6 @@
 /* shade, second half: sends visible samples, bucket by bucket and batch by batch, to their sink (R20-R32). */
+#include <string.h>
+
 #include "base/grow.h"
 #include "base/limits.h"
 #include "data/srgb_tables.h"
@@ -72,6 +74,7 @@ static void shade_primitives(const e3d_steps *steps, int32_t first, int32_t end)
     int32_t surface = 0;
     batch->count = batch->facets = 0;
     batch->pattern = memory->shown.pattern;
+    memcpy(batch->beside, memory->shown.beside, sizeof batch->beside);
     for (int32_t p = first; p != end;) {
         stretch s;
         p = find_stretch(memory, p, end, &s);

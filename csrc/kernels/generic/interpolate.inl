@@ -39,11 +39,13 @@ static ALWAYS_INLINE vf32 interpolate_offset(const int32_t *offsets, vi32 number
     return v_mul(v_float(v_gatheri(offsets, number)), v_setf(1.0f / E3D_SUBPIXEL));
 }
 
-/* R105: interpolates at the pixel's centre if no weight is negative there, else at the given sample. */
+/* R105: interpolates at the pixel's centre if no weight is negative there, else at the given sample; or beside that (R190),
+ * where weights may be negative. */
 static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_surfaces *s, const element_lanes *lanes, int same,
                                              weight_lanes *out)
 {
     vf32 p[3], px[3], py[3], zero = v_setf(0.0f), u = zero, v = zero;
+    int is_beside = batch->beside[0] != 0.0f || batch->beside[1] != 0.0f;
     interpolate_base(s, lanes, same, v_loadi(batch->sample + i), out);
     take_three(s->p, lanes, same, p);
     take_three(s->px, lanes, same, px);
@@ -53,10 +55,10 @@ static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_
         out->w[k] = v_add(v_add(p[k], v_mul(out->dx, px[k])), v_mul(out->dy, py[k]));
         inside = v_mand(inside, v_ge(out->w[k], zero));
     }
-    if (v_any(v_mnot(inside))) {
+    if (is_beside || v_any(v_mnot(inside))) {
         vi32 number = v_loadi(batch->number + i);
-        u = v_self(inside, zero, interpolate_offset(batch->pattern->x, number));
-        v = v_self(inside, zero, interpolate_offset(batch->pattern->y, number));
+        u = v_add(v_self(inside, zero, interpolate_offset(batch->pattern->x, number)), v_setf(batch->beside[0]));
+        v = v_add(v_self(inside, zero, interpolate_offset(batch->pattern->y, number)), v_setf(batch->beside[1]));
         out->dx = v_add(out->dx, u);
         out->dy = v_add(out->dy, v);
         for (int k = 0; k < 3; k++)
@@ -64,7 +66,7 @@ static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_
     }
     v_storef(batch->shift[0] + i, u);
     v_storef(batch->shift[1] + i, v);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && !is_beside; k++)
         out->w[k] = v_max(out->w[k], v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
 }
 

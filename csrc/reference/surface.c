@@ -82,17 +82,34 @@ static void turned_normal(const ref_surface *s, const float normal[3], float out
         out[c] = s->piece->front ? 0.0f + out[c] : 0.0f - out[c];
 }
 
-/* Weights replace barycentrics, since the normal's length doesn't matter. */
-static void interpolate_normal(ref_surface *s)
+/* R191: the square of how far the unit normal turns along an axis of the picture, over that of 1 / length. */
+static float turned_square(const float corners[3][3], const float planes[3], const float n[3])
+{
+    float change[3], turned[3];
+    for (int c = 0; c < 3; c++) {
+        float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
+        change[c] = ref_dot3(planes, v);
+    }
+    float along = ref_dot3(n, change);
+    for (int c = 0; c < 3; c++)
+        turned[c] = change[c] - n[c] * along;
+    return ref_dot3(turned, turned);
+}
+
+/* R22 and R191: the normal between those of the corners, and its curvature. */
+static void find_smooth_normal(ref_surface *s)
 {
     const float *normals = s->instance->mesh->normals;
-    float corners[3][3];
+    float corners[3][3], *n = s->world_normal;
     for (int k = 0; k < 3; k++)
         turned_normal(s, normals + 3 * (size_t)s->piece->primitive.vertices[k], corners[k]);
     for (int c = 0; c < 3; c++) {
         float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
-        s->world_normal[c] = ref_dot3(s->weight, v);
+        n[c] = ref_dot3(s->weight, v); /* weights replace barycentrics, since the normal's length doesn't matter */
     }
+    float inverse = ref_normalize(n);
+    float across = turned_square(corners, s->piece->bary_dx, n), down = turned_square(corners, s->piece->bary_dy, n);
+    s->curvature = ref_min(((across + down) * E3D_OVER_2PI) * (inverse * inverse), E3D_MOST_CURVATURE);
 }
 
 /* R22 */
@@ -100,13 +117,15 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
     const ref_primitive *primitive = &s->piece->primitive;
-    int flat = e3d_is_flat(scene->frame->normals, primitive->material->flat);
+    int flat = e3d_is_flat(scene->frame->normals, primitive->material->flat) && mesh->face_normals;
     float *n = s->world_normal;
-    n[0] = n[1] = n[2] = 0.0f;
-    if (primitive->kind == REF_FACE && flat && mesh->face_normals)
+    n[0] = n[1] = n[2] = s->curvature = 0.0f;
+    if (primitive->kind == REF_FACE && !flat && mesh->normals) {
+        find_smooth_normal(s);
+        return;
+    }
+    if (primitive->kind == REF_FACE && flat)
         turned_normal(s, mesh->face_normals + 3 * (size_t)primitive->index, n);
-    else if (primitive->kind == REF_FACE && mesh->normals)
-        interpolate_normal(s);
     ref_normalize(n);
 }
 

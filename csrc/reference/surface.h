@@ -17,6 +17,7 @@ typedef struct ref_stretch {
 /* A physically based material at one sample (R46). */
 typedef struct ref_physical {
     float metallic, roughness, occlusion;
+    float wide, coat_wide; /* R193: how much wider the lobes become */
     float specular, reflectance[3]; /* F90 and F0 of the part that isn't metal */
     float coat, coat_roughness, coat_normal[3];
     float sheen[3], sheen_roughness;
@@ -37,6 +38,7 @@ typedef struct ref_surface {
     float metric_depth;
     float corner_position[3][3];                 /* [vertex], in world space */
     float shading_normal[3];                     /* the normal before it is mapped */
+    float curvature;                             /* R191 */
     float world_normal[3], view_normal[3];
     float tangent[4], view_tangent[4]; /* R47; all 0 if there is none */
     float uv[2];                                 /* of set 0 */

@@ -124,6 +124,7 @@ class OptionKeywords(TypedDict, total=False):
     point_shape: PointShape
     size_unit: SizeUnit
     alpha_to_coverage: bool
+    specular_antialiasing: bool
     ambient_occlusion: bool
     ambient_occlusion_radius: float | None
 
@@ -204,6 +205,11 @@ class RenderOptions:
         pixel's samples as lie on the side of the edge where alpha is above ``alpha_cutoff``, so
         that foliage has edges as smooth as those of faces, and does not vanish in the distance.
         Without it the alpha test keeps all samples of a pixel or none.
+    specular_antialiasing : bool
+        In mode "lit": physically based materials are as rough as their normals differ within a
+        pixel, from curved meshes and from normal maps seen from afar, so that small highlights do
+        not flicker when something moves. Without it each sample shows the roughness of the
+        material.
     ambient_occlusion : bool
         In mode "lit": darken ambient light in corners and hollows.
     ambient_occlusion_radius : float, optional
@@ -235,6 +241,7 @@ class RenderOptions:
     point_shape: PointShape = _choice("square", _native.POINT_SHAPES, "point_shape")
     size_unit: SizeUnit = _option("pixels", one_of(SIZE_UNITS))
     alpha_to_coverage: bool = _option(True, flag, "alpha_to_coverage")
+    specular_antialiasing: bool = _option(True, flag, "specular_antialiasing")
     ambient_occlusion: bool = _option(False, flag)
     ambient_occlusion_radius: float | None = _option(None, optional_positive)
 

@@ -214,6 +214,8 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
         wanted |= E3D_WANT_SURFACE;
     if (pass->frame->normals == E3D_NORMALS_FACET && bucket->lit && wanted & E3D_WANT_POSITION)
         wanted |= E3D_WANT_FACET;
+    if (wanted & E3D_WANT_NORMAL && e3d_widens_lobes(pass, bucket))
+        wanted |= E3D_WANT_CURVATURE;
     return bucket->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 

@@ -78,6 +78,7 @@ typedef struct e3d_batch {
     e3d_lane_array energy[3], shine[3], alpha;
     uint32_t shadowed_lights[E3D_BATCH + E3D_PAD]; /* a bit for each light with exact shadows, set if the light is hidden */
     e3d_lane_array visibility; /* R129, if the frame has it */
+    e3d_lane_array curvature;  /* R191 */
     /* `reached` of R93 for the lights whose numbers are in `sun`; the kernels that light the batch find it */
     e3d_lane_array reached[E3D_SUNS];
     int32_t sun[E3D_SUNS];
@@ -105,7 +106,8 @@ enum {
     E3D_WANT_ALPHA = 128,  /* the alphas of vertices and instances, if these have colours */
     E3D_WANT_FACET = 512,  /* with E3D_WANT_POSITION: light is found in the middle of the face (R153) */
     /* All textures of a material with more than a base colour; without it, only those that alpha needs */
-    E3D_WANT_TEXTURES = 256
+    E3D_WANT_TEXTURES = 256,
+    E3D_WANT_CURVATURE = 1024 /* with E3D_WANT_NORMAL */
 };
 
 /* The lights of a frame. `reach` has five rows of a number a light, and E3D_PAD more: x, y and z of its position, the square

@@ -117,7 +117,13 @@ def _add_texture_filters(group) -> None:
 
 
 def _add_smoothing(group) -> None:
-    """Add what smooths details that are finer than pixels."""
+    """Add what keeps details that are finer than pixels from flickering."""
+    group.add_argument(
+        "--specular-antialiasing",
+        action=argparse.BooleanOptionalAction,
+        help="physically based materials are rougher where normals differ within a pixel, so that "
+        "small highlights do not flicker; on by default",
+    )
     group.add_argument(
         "--alpha-to-coverage",
         action=argparse.BooleanOptionalAction,

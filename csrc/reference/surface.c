@@ -83,7 +83,7 @@ static void turned_normal(const ref_surface *s, const float normal[3], float out
 }
 
 /* R191: the square of how far the unit normal turns along an axis of the picture, over that of 1 / length. */
-static float turned_square(const float corners[3][3], const float planes[3], const float n[3])
+static float turned_square(float corners[3][3], const float planes[3], const float n[3])
 {
     float change[3], turned[3];
     for (int c = 0; c < 3; c++) {
@@ -100,7 +100,7 @@ static float turned_square(const float corners[3][3], const float planes[3], con
 static void find_smooth_normal(ref_surface *s)
 {
     const float *normals = s->instance->mesh->normals;
-    float corners[3][3], *n = s->world_normal;
+    float (*corners)[3] = s->corner_normal, *n = s->world_normal;
     for (int k = 0; k < 3; k++)
         turned_normal(s, normals + 3 * (size_t)s->piece->primitive.vertices[k], corners[k]);
     for (int c = 0; c < 3; c++) {
@@ -120,7 +120,8 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
     int flat = e3d_is_flat(scene->frame->normals, primitive->material->flat) && mesh->face_normals;
     float *n = s->world_normal;
     n[0] = n[1] = n[2] = s->curvature = 0.0f;
-    if (primitive->kind == REF_FACE && !flat && mesh->normals) {
+    s->is_smooth = primitive->kind == REF_FACE && !flat && mesh->normals;
+    if (s->is_smooth) {
         find_smooth_normal(s);
         return;
     }

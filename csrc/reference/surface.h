@@ -37,6 +37,8 @@ typedef struct ref_surface {
     float lit_position[3]; /* R153: the position in world space at which light is found */
     float metric_depth;
     float corner_position[3][3];                 /* [vertex], in world space */
+    float corner_normal[3][3];                   /* likewise, turned to the viewer's side; used if is_smooth */
+    int is_smooth;                               /* the normal is that of the corners (R22) */
     float shading_normal[3];                     /* the normal before it is mapped */
     float curvature;                             /* R191 */
     float world_normal[3], view_normal[3];

@@ -49,6 +49,10 @@ typedef struct e3d_surfaces {
 /* The planes of surfaces, if lights have exact shadows (R100). */
 typedef struct e3d_receivers {
     e3d_surface_floats normal[3], slack[3], limit;
+    int32_t is_smooth;                        /* not 0: normals are those of the corners, so that R194 holds for */
+    const e3d_surfaces *surfaces;             /* these surfaces, */
+    e3d_surface_floats corner_normal[3][3];   /* with unit normals: [component][vertex] */
+    const void *mesh[E3D_BATCH_SURFACES + E3D_PAD]; /* of each surface */
 } e3d_receivers;
 
 /* R30: the unit of texels. */

@@ -56,6 +56,8 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
  * 0. */
 #define E3D_LEAST_ROUGHNESS 0.045f
 #define E3D_LEAST_SHEEN_ROUGHNESS 0.07f
+/* R191: normals that turn farther from sample to sample don't widen a lobe more. */
+#define E3D_MOST_CURVATURE 0.18f
 #define E3D_LEAST_COSINE 0x1p-20f
 /* R100: how far rounding may move a sample, or a corner beside it, off the plane of its face, as a share of their
  * coordinates: 7 roundings of the sample, 8 of the corner (R3, R20). */

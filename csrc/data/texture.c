@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "data/normal_levels.h"
 #include "data/srgb_tables.h"
 #include "e3d.h"
 
@@ -59,12 +60,12 @@ typedef struct decoding {
     uint16_t color[256], alpha[256];
 } decoding;
 
-static decoding find_decoding(int decode_srgb)
+static decoding find_decoding(int decode_srgb, int has_spread)
 {
     decoding out;
     for (uint32_t c = 0; c < 256; c++) {
-        out.alpha[c] = to_15_bits(c * 257);
-        out.color[c] = decode_srgb ? to_15_bits(SRGB_TO_LINEAR16[c]) : out.alpha[c];
+        out.color[c] = to_15_bits(decode_srgb ? SRGB_TO_LINEAR16[c] : c * 257);
+        out.alpha[c] = has_spread ? 0 : to_15_bits(c * 257);
     }
     return out;
 }
@@ -89,7 +90,7 @@ static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode
 {
     const e3d_level *level = &texture->view.levels[0];
     size_t row_bytes = 4 * (size_t)level->width;
-    const decoding by = find_decoding(decode_srgb);
+    const decoding by = find_decoding(decode_srgb, texture->view.has_spread);
     for (int32_t y = 0; y < level->height; y++, pixels += row_bytes) {
         if (texture->view.channel_bits == 8)
             memcpy(row_of(texture, level, y), pixels, row_bytes);
@@ -116,7 +117,7 @@ static uint64_t mean_of_four(const uint8_t *top, const uint8_t *bottom, size_t n
     return (low >> 2 & some) | (high >> 2 & some) << 16;
 }
 
-static void halve_row(const uint8_t *top, const uint8_t *bottom, int32_t width, size_t next, uint8_t *out)
+static void average_row(const uint8_t *top, const uint8_t *bottom, int32_t width, size_t next, uint8_t *out)
 {
     for (int32_t x = 0; x < width; x++, top += 16, bottom += 16, out += 8) {
         uint64_t texel = mean_of_four(top, bottom, next);
@@ -130,10 +131,10 @@ static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_l
     for (int32_t y = 0; y < coarse->height; y++) {
         int32_t y1 = 2 * y + 1 < fine->height ? 2 * y + 1 : fine->height - 1;
         const uint8_t *top = row_of(texture, fine, 2 * y), *bottom = row_of(texture, fine, y1);
-        if (fine->width > 1)
-            halve_row(top, bottom, coarse->width, 8, row_of(texture, coarse, y));
-        else
-            halve_row(top, bottom, 1, 0, row_of(texture, coarse, y));
+        size_t next = fine->width > 1 ? 8 : 0;
+        average_row(top, bottom, coarse->width, next, row_of(texture, coarse, y));
+        if (texture->view.has_spread)
+            e3d_spread_row(top, bottom, coarse->width, next, row_of(texture, coarse, y));
     }
 }
 
@@ -195,13 +196,14 @@ static float power_of_two(float y)
     return ldexpf((1.0f + f) + (f * (f - 1.0f)) * sum, (int)whole);
 }
 
-/* Only a chain of levels uses anisotropy and bias. */
+/* Only a chain of levels uses anisotropy, bias and the spread of normals. */
 static void keep_sampling(const e3d_sampling *sampling, e3d_texture_view *view)
 {
     int has_levels = sampling->filter == E3D_TRILINEAR;
     view->filter = sampling->filter;
     memcpy(view->wrap, sampling->wrap, sizeof view->wrap);
     view->anisotropy = has_levels && sampling->anisotropy > 1 ? sampling->anisotropy : 1;
+    view->has_spread = has_levels && sampling->holds_normals;
     view->level_scale = has_levels ? power_of_two(sampling->lod_bias) : 1.0f;
 }
 

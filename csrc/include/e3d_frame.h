@@ -133,6 +133,8 @@ typedef struct e3d_frame {
     int32_t msaa_samples; /* multisampling: 2, 4, 8 or 16, with samples_axis 1; else 0 */
     /* With multisampling: the alpha of E3D_ALPHA_MASK decides how many of a pixel's samples are covered */
     int32_t alpha_to_coverage;
+    /* Lobes of physically based materials are as wide as the normals in a pixel ask for (R193) */
+    int32_t specular_antialiasing;
     e3d_ambient_light ambient_light;      /* beside ambient */
     /* (height, width) or NULL: the share of ambient light that reaches the opaque surfaces in a pixel (R129) */
     const float *ambient_visibility;

@@ -36,6 +36,8 @@ typedef struct e3d_sampling {
     e3d_wrap wrap[2];   /* along u and along v */
     int32_t anisotropy; /* E3D_TRILINEAR: how many places a sample may read, at most; 0 counts as 1 */
     float lod_bias;     /* E3D_TRILINEAR: added to the level; -E3D_MAX_LOD_BIAS .. E3D_MAX_LOD_BIAS */
+    /* Not 0: red, green and blue are directions; with E3D_TRILINEAR the fourth channel becomes how far these spread in a texel */
+    int32_t holds_normals;
 } e3d_sampling;
 
 typedef struct e3d_texture_view {
@@ -43,6 +45,7 @@ typedef struct e3d_texture_view {
     int32_t level_count; /* 1 unless the filter is E3D_TRILINEAR */
     int32_t channel_bits;
     int32_t is_opaque;   /* every alpha is 255 */
+    int32_t has_spread;  /* the fourth channel is how far normals spread in a texel (R192) */
     e3d_filter filter;
     e3d_wrap wrap[2]; /* along u and along v */
     int32_t anisotropy; /* at least 1; 1 unless the filter is E3D_TRILINEAR */

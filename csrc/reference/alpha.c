@@ -2,7 +2,7 @@
  * In: pieces whose materials are masked or blended, and the samples that they cover.
  * Out: whether masked ones show there; the fragments of blended ones, sorted by sample, and samples with their colours
  * blended over them.
- * Rules: R81 (coverage), R82 (visibility), R83 (order), R84 (composition), R123 (of radiance), R105 and R108 (multisampling).
+ * Rules: R81 (coverage), R82 (visibility), R83 (order), R84 (composition), R123 (of radiance), R105, R108 and R190 (multisampling).
  * The alpha of a surface is R80, in surface.c. */
 #include <math.h>
 #include <stdlib.h>
@@ -24,22 +24,34 @@ static int32_t first_of(uint32_t samples)
     return n;
 }
 
-/* R80 */
-static float alpha_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, uint32_t samples)
+/* R190: an alpha, so that 1/2 is the cutoff. */
+static float centred(float alpha, float cutoff)
 {
-    ref_surface surface;
-    const ref_place at = {x, y, first_of(samples)};
-    ref_surface_at(scene, piece, &at, &surface);
-    return surface.alpha;
+    if (alpha < cutoff)
+        return (0.5f * alpha) / cutoff;
+    return cutoff < 1.0f ? 0.5f + (0.5f * (alpha - cutoff)) / (1.0f - cutoff) : 1.0f;
 }
 
-/* R108: the samples that an alpha covers. */
-static uint32_t coverage_of(const ref_scene *scene, float alpha, float cutoff)
+/* R190: the share of a pixel that a surface covers. */
+static float share_of(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const ref_surface *surface)
+{
+    static const float RIGHT[2] = {1.0f, 0.0f}, BELOW[2] = {0.0f, 1.0f};
+    float cutoff = piece->primitive.material->alpha_cutoff, h = centred(surface->alpha, cutoff);
+    ref_surface right, below;
+    ref_surface_beside(scene, piece, at, RIGHT, &right);
+    ref_surface_beside(scene, piece, at, BELOW, &below);
+    float x = centred(right.alpha, cutoff) - h, y = centred(below.alpha, cutoff) - h;
+    float least = (float)(surface->alpha_lod < 1024 ? surface->alpha_lod : 1024) * 0x1p-10f;
+    float slope = ref_clamp(sqrtf(x * x + y * y), least, 1.0f);
+    if (slope > 0.0f)
+        return (h - 0.5f) / slope + 0.5f;
+    return h >= 0.5f ? 1.0f : 0.0f;
+}
+
+/* R108: the samples that a share of a pixel covers. */
+static uint32_t coverage_of(const ref_scene *scene, float share)
 {
     uint32_t covered = 0;
-    float share = alpha < cutoff ? (0.5f * alpha) / cutoff : 1.0f;
-    if (alpha >= cutoff && cutoff < 1.0f)
-        share = 0.5f + (0.5f * (alpha - cutoff)) / (1.0f - cutoff);
     for (int32_t n = 0; n < scene->pixel_samples; n++)
         if (share * (float)scene->pixel_samples >= (float)n + 0.5f)
             covered |= (uint32_t)1 << n;
@@ -52,12 +64,15 @@ uint32_t ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_
     e3d_alpha_mode mode = alpha_mode_of(piece);
     if (mode == E3D_ALPHA_OPAQUE || (scene->pattern && ref_is_blended(scene->frame, piece)))
         return covered;
-    float alpha = alpha_at(scene, piece, x, y, covered);
+    const ref_place at = {x, y, first_of(covered)};
+    ref_surface surface;
+    ref_surface_at(scene, piece, &at, &surface);
+    float alpha = surface.alpha; /* R80 */
     if (ref_transmits(scene->frame, piece))
         return ref_transmitting_alpha(piece->primitive.material, alpha) >= E3D_LEAST_ALPHA ? covered : 0;
     float cutoff = mode == E3D_ALPHA_MASK ? piece->primitive.material->alpha_cutoff : E3D_LEAST_ALPHA;
     if (scene->pattern && scene->frame->alpha_to_coverage && mode == E3D_ALPHA_MASK)
-        return covered & coverage_of(scene, alpha, cutoff);
+        return covered & coverage_of(scene, share_of(scene, piece, &at, &surface));
     return alpha >= cutoff ? covered : 0;
 }
 

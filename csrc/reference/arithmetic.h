@@ -45,13 +45,14 @@ static inline void ref_cross(const float a[3], const float b[3], float out[3])
 }
 
 /* Normalises a vector. If its length is zero, or too great for a float, it becomes zero (R22); if it has a NaN, it becomes
- * NaN. */
-static inline void ref_normalize(float v[3])
+ * NaN. Returns 1 / length. */
+static inline float ref_normalize(float v[3])
 {
     float length2 = ref_dot3(v, v);
     float scale = 1.0f / sqrtf(E3D_LEAST_LENGTH2 > length2 ? E3D_LEAST_LENGTH2 : length2);
     for (int c = 0; c < 3; c++)
         v[c] = v[c] * scale;
+    return scale;
 }
 
 /* R27; v is positive and normal. */

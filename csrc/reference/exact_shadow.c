@@ -1,7 +1,9 @@
 /* Exact shadow: whether a caster lies between a sample and a light.
  * In: a surface, a light, and all casters of the scene: each one is tested. Out: whether one of them hides the light.
- * Rules: R98 (the plane of the light), R99 (which casters the ray goes through), R100 (the plane of the sample), R101 (hits).
- * Source of R99: Woop, Benthin and Wald 2013 ("Watertight ray/triangle intersection"). */
+ * Rules: R98 (the plane of the light), R99 (which casters the ray goes through), R100 (the plane of the sample), R101 (hits), R194
+ * (rays from the body that normals tell of).
+ * Sources: of R99 Woop, Benthin and Wald 2013 ("Watertight ray/triangle intersection"), of R194 Hanika 2021 ("Hacking the shadow
+ * terminator"). */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
@@ -17,6 +19,7 @@ typedef struct eye {
 /* R100 */
 typedef struct plane {
     float normal[3], slack[3], limit;
+    float towards[3]; /* the light, from the sample */
 } plane;
 
 /* A caster as the light sees it. */
@@ -113,16 +116,16 @@ static plane plane_of(const ref_surface *s, const e3d_light *light)
         sum[c] = fabsf(e[c]) + fabsf(f[c]);
     }
     ref_cross(e, f, m);
-    float i = 1.0f / ref_max(ref_max(fabsf(m[0]), fabsf(m[1])), fabsf(m[2])), towards[3];
+    float i = 1.0f / ref_max(ref_max(fabsf(m[0]), fabsf(m[1])), fabsf(m[2]));
     for (int c = 0; c < 3; c++) {
         int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
         out.normal[c] = m[c] * i;
         out.slack[c] = ((most[c1] * sum[c2] + most[c2] * sum[c1]) * i) * E3D_PLANE_SLACK;
         share[c] = fabsf(out.normal[c]) * most[c];
-        towards[c] = e3d_light_traits_of(light->kind).has_position ? light->position[c] - s->lit_position[c] : light->to_light[c];
+        out.towards[c] = e3d_light_traits_of(light->kind).has_position ? light->position[c] - s->lit_position[c] : light->to_light[c];
     }
     out.limit = ((share[0] + share[1]) + share[2]) * E3D_PLANE_SLACK;
-    int away = ref_dot3(out.normal, towards) < 0.0f;
+    int away = ref_dot3(out.normal, out.towards) < 0.0f;
     for (int c = 0; c < 3 && away; c++)
         out.normal[c] = 0.0f - out.normal[c];
     return out;
@@ -202,13 +205,54 @@ static int is_above(const eye *e, const plane *plane, const float p[3], const re
     return !e->is_point || between(weight, s->z) > 0.0f;
 }
 
-/* R102 */
-int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface)
+/* ---- R194 ---- */
+
+/* Whether a face turns away from a light that its normals look to. */
+static int turns_away(const ref_surface *s, const plane *plane)
+{
+    return s->is_smooth && ref_dot3(s->shading_normal, plane->towards) > 0.0f && ref_dot3(plane->normal, s->shading_normal) < 0.0f;
+}
+
+/* Whether a caster is one through which the ray leaves the sample's own body. */
+static int is_left(const ref_surface *s, const ref_caster *caster, const plane *plane)
+{
+    const ref_instance *instance = &s->casters->instances[caster->instance];
+    const float (*v)[3] = caster->corner;
+    float e[3], f[3], m[3];
+    if (instance->mesh != s->instance->mesh)
+        return 0;
+    for (int c = 0; c < 3; c++) {
+        e[c] = v[1][c] - v[0][c];
+        f[c] = v[2][c] - v[0][c];
+    }
+    ref_cross(e, f, m);
+    for (int c = 0; c < 3 && instance->turned_round; c++)
+        m[c] = 0.0f - m[c];
+    return ref_dot3(m, plane->towards) > 0.0f;
+}
+
+/* The place on the smooth body over a sample. */
+static void find_body(const ref_surface *s, const float p[3], float out[3])
+{
+    float normal[3][3], rise[3];
+    for (int k = 0; k < 3; k++) {
+        float d[3];
+        for (int c = 0; c < 3; c++) {
+            normal[k][c] = s->corner_normal[k][c];
+            d[c] = s->corner_position[k][c] - p[c];
+        }
+        ref_normalize(normal[k]);
+        rise[k] = s->barycentric[k] * ref_max(ref_dot3(normal[k], d), 0.0f);
+    }
+    for (int c = 0; c < 3; c++)
+        out[c] = p[c] + ((rise[0] * normal[0][c] + rise[1] * normal[1][c]) + rise[2] * normal[2][c]);
+}
+
+/* R98 to R102: whether a caster hides the light from a place; `leaves`: whether the ray may leave the sample's own body. */
+static int is_hidden_from(const e3d_light *light, const ref_surface *surface, const plane *plane, const float p[3], int leaves)
 {
     const ref_casters *casters = surface->casters;
-    const float *p = surface->lit_position;
     eye e = open_eye(light, p);
-    plane plane = plane_of(surface, light);
     for (int64_t n = 0; n < casters->count; n++) {
         const ref_caster *caster = &casters->items[n];
         seen s;
@@ -216,8 +260,23 @@ int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface)
         if (casters->instances[caster->instance].draw->spared_lights >> light->shadow.exact & 1)
             continue;
         see(&e, caster, &s);
-        if (goes_through(&e, &s, weight) && is_above(&e, &plane, p, caster, &s, weight) && !has_hole(casters, caster, weight))
+        if (goes_through(&e, &s, weight) && is_above(&e, plane, p, caster, &s, weight) && !has_hole(casters, caster, weight) &&
+            !(leaves && is_left(surface, caster, plane)))
             return 1;
     }
     return 0;
+}
+
+/* R102 and R194 */
+int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface)
+{
+    plane plane = plane_of(surface, light);
+    int away = turns_away(surface, &plane);
+    float body[3];
+    if (is_hidden_from(light, surface, &plane, surface->lit_position, away))
+        return 1;
+    if (!away)
+        return 0;
+    find_body(surface, surface->lit_position, body);
+    return is_hidden_from(light, surface, &plane, body, 0);
 }

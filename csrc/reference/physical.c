@@ -36,13 +36,16 @@ typedef struct sums {
 static int is_anisotropic(const ref_surface *s) { return s->piece->primitive.material->physical.anisotropy != 0.0f; }
 static int is_iridescent(const ref_surface *s) { return s->piece->primitive.material->physical.iridescence != 0.0f; }
 
-static lobe make_lobe(const float normal[3], const float view[3], float roughness)
+/* R49 and R193 */
+static lobe make_lobe(const float normal[3], const float view[3], float roughness, float wide)
 {
     lobe out = {.roughness = ref_clamp(roughness, E3D_LEAST_ROUGHNESS, 1.0f)};
     for (int c = 0; c < 3; c++)
         out.normal[c] = normal[c];
     float alpha = out.roughness * out.roughness;
-    out.A = alpha * alpha;
+    out.A = ref_min(alpha * alpha + wide, 1.0f);
+    if (wide > 0.0f)
+        out.roughness = sqrtf(sqrtf(out.A));
     out.facing = ref_dot3(normal, view);
     out.nv = ref_max(fabsf(out.facing), E3D_LEAST_COSINE);
     out.root = sqrtf(out.A + (1.0f - out.A) * (out.nv * out.nv));
@@ -85,8 +88,8 @@ static sample find_sample(const e3d_frame *frame, const ref_surface *s)
     sample out = {.specular = p->specular};
     float m = p->metallic;
     ref_direction_to_eye(frame, s, out.view);
-    out.base = make_lobe(s->world_normal, out.view, p->roughness);
-    out.coat = make_lobe(p->coat_normal, out.view, p->coat_roughness);
+    out.base = make_lobe(s->world_normal, out.view, p->roughness, p->wide);
+    out.coat = make_lobe(p->coat_normal, out.view, p->coat_roughness, p->coat_wide);
     for (int c = 0; c < 3; c++) {
         out.f0[c] = p->reflectance[c] + (s->albedo[c] - p->reflectance[c]) * m;
         out.diffuse[c] = (s->albedo[c] * (1.0f - m)) * E3D_OVER_PI;
@@ -298,7 +301,7 @@ void ref_light_behind(const ref_surface *s, const float view[3], float out[3])
 {
     const ref_physical *p = &s->physical;
     const e3d_material *material = s->piece->primitive.material;
-    lobe base = make_lobe(s->world_normal, view, p->roughness), coat = make_lobe(p->coat_normal, view, p->coat_roughness);
+    lobe base = make_lobe(s->world_normal, view, p->roughness, p->wide), coat = make_lobe(p->coat_normal, view, p->coat_roughness, p->coat_wide);
     float a = ref_albedo(E3D_DFG_A, base.roughness, base.nv), b = ref_albedo(E3D_DFG_B, base.roughness, base.nv), rest = 1.0f - (a + b);
     float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f), e = ref_albedo(E3D_DFG_SHEEN, rough, base.nv);
     float most = ref_max(ref_max(p->sheen[0], p->sheen[1]), p->sheen[2]);

@@ -16,15 +16,18 @@ static void find_planes(ref_surface *s, float dx, float dy)
         s->weight[k] = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
 }
 
-/* R19 and R105 */
-static void find_weights(const ref_scene *scene, ref_surface *s, const ref_place *at)
+/* R19, R105 and R190 */
+static void find_weights(const ref_scene *scene, ref_surface *s, const ref_place *at, const float beside[2])
 {
     float dx = (float)(at->x - s->piece->left), dy = (float)(at->y - s->piece->top);
+    int is_beside = beside[0] != 0.0f || beside[1] != 0.0f;
     find_planes(s, dx, dy);
     if (scene->pattern && !(s->weight[0] >= 0.0f && s->weight[1] >= 0.0f && s->weight[2] >= 0.0f))
         find_planes(s, dx + (float)scene->pattern->x[at->number] * (1.0f / 256.0f),
                     dy + (float)scene->pattern->y[at->number] * (1.0f / 256.0f));
-    for (int k = 0; k < 3; k++)
+    if (is_beside)
+        find_planes(s, s->dx + beside[0], s->dy + beside[1]);
+    for (int k = 0; k < 3 && !is_beside; k++)
         s->weight[k] = ref_max(s->weight[k], k == 0 ? E3D_LEAST_WEIGHT : 0.0f);
     s->r = 1.0f / ((s->weight[0] + s->weight[1]) + s->weight[2]);
     for (int k = 0; k < 3; k++)
@@ -79,17 +82,34 @@ static void turned_normal(const ref_surface *s, const float normal[3], float out
         out[c] = s->piece->front ? 0.0f + out[c] : 0.0f - out[c];
 }
 
-/* Weights replace barycentrics, since the normal's length doesn't matter. */
-static void interpolate_normal(ref_surface *s)
+/* R191: the square of how far the unit normal turns along an axis of the picture, over that of 1 / length. */
+static float turned_square(float corners[3][3], const float planes[3], const float n[3])
+{
+    float change[3], turned[3];
+    for (int c = 0; c < 3; c++) {
+        float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
+        change[c] = ref_dot3(planes, v);
+    }
+    float along = ref_dot3(n, change);
+    for (int c = 0; c < 3; c++)
+        turned[c] = change[c] - n[c] * along;
+    return ref_dot3(turned, turned);
+}
+
+/* R22 and R191: the normal between those of the corners, and its curvature. */
+static void find_smooth_normal(ref_surface *s)
 {
     const float *normals = s->instance->mesh->normals;
-    float corners[3][3];
+    float (*corners)[3] = s->corner_normal, *n = s->world_normal;
     for (int k = 0; k < 3; k++)
         turned_normal(s, normals + 3 * (size_t)s->piece->primitive.vertices[k], corners[k]);
     for (int c = 0; c < 3; c++) {
         float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
-        s->world_normal[c] = ref_dot3(s->weight, v);
+        n[c] = ref_dot3(s->weight, v); /* weights replace barycentrics, since the normal's length doesn't matter */
     }
+    float inverse = ref_normalize(n);
+    float across = turned_square(corners, s->piece->bary_dx, n), down = turned_square(corners, s->piece->bary_dy, n);
+    s->curvature = ref_min(((across + down) * E3D_OVER_2PI) * (inverse * inverse), E3D_MOST_CURVATURE);
 }
 
 /* R22 */
@@ -97,13 +117,16 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
     const ref_primitive *primitive = &s->piece->primitive;
-    int flat = e3d_is_flat(scene->frame->normals, primitive->material->flat);
+    int flat = e3d_is_flat(scene->frame->normals, primitive->material->flat) && mesh->face_normals;
     float *n = s->world_normal;
-    n[0] = n[1] = n[2] = 0.0f;
-    if (primitive->kind == REF_FACE && flat && mesh->face_normals)
+    n[0] = n[1] = n[2] = s->curvature = 0.0f;
+    s->is_smooth = primitive->kind == REF_FACE && !flat && mesh->normals;
+    if (s->is_smooth) {
+        find_smooth_normal(s);
+        return;
+    }
+    if (primitive->kind == REF_FACE && flat)
         turned_normal(s, mesh->face_normals + 3 * (size_t)primitive->index, n);
-    else if (primitive->kind == REF_FACE && mesh->normals)
-        interpolate_normal(s);
     ref_normalize(n);
 }
 
@@ -160,8 +183,10 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     for (int c = 0; c < 3; c++)
         s->albedo[c] = primitive->material->color[c];
     s->alpha = primitive->material->alpha;
+    s->alpha_lod = 0;
     if (ref_slot_counts(&primitive->material->texture, s)) {
         float unit = ref_slot_sample(&primitive->material->texture, s, factor);
+        s->alpha_lod = ref_slot_alpha_lod(&primitive->material->texture, s);
         for (int c = 0; c < 3; c++)
             s->albedo[c] = factor[c] * (s->albedo[c] * unit);
         s->alpha = factor[3] * (s->alpha * unit);
@@ -178,12 +203,12 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     }
 }
 
-void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
+void ref_surface_beside(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const float beside[2], ref_surface *out)
 {
     out->piece = piece;
     out->casters = &scene->casters;
     out->instance = &scene->instances[piece->primitive.instance];
-    find_weights(scene, out, at);
+    find_weights(scene, out, at, beside);
     find_position(scene, out);
     find_lit_position(scene, out);
     find_normal(scene, out);
@@ -192,4 +217,10 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_pl
     ref_find_textures(scene, out);
     out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
     out->visibility = 1.0f; /* resolve.c sets it for surfaces that aren't blended */
+}
+
+void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
+{
+    static const float HERE[2] = {0.0f, 0.0f};
+    ref_surface_beside(scene, piece, at, HERE, out);
 }

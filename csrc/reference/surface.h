@@ -17,6 +17,7 @@ typedef struct ref_stretch {
 /* A physically based material at one sample (R46). */
 typedef struct ref_physical {
     float metallic, roughness, occlusion;
+    float wide, coat_wide; /* R193: how much wider the lobes become */
     float specular, reflectance[3]; /* F90 and F0 of the part that isn't metal */
     float coat, coat_roughness, coat_normal[3];
     float sheen[3], sheen_roughness;
@@ -36,11 +37,15 @@ typedef struct ref_surface {
     float lit_position[3]; /* R153: the position in world space at which light is found */
     float metric_depth;
     float corner_position[3][3];                 /* [vertex], in world space */
+    float corner_normal[3][3];                   /* likewise, turned to the viewer's side; used if is_smooth */
+    int is_smooth;                               /* the normal is that of the corners (R22) */
     float shading_normal[3];                     /* the normal before it is mapped */
+    float curvature;                             /* R191 */
     float world_normal[3], view_normal[3];
     float tangent[4], view_tangent[4]; /* R47; all 0 if there is none */
     float uv[2];                                 /* of set 0 */
     float albedo[3], alpha; /* alpha: R80 */
+    int32_t alpha_lod;      /* R190: lod of the texture that has alpha */
     float emissive[3];
     ref_physical physical; /* used if the face's material is physical */
     float visibility;      /* R129: the share of ambient light that arrives */
@@ -56,6 +61,8 @@ static inline float ref_interpolate(const ref_surface *surface, const float corn
 /* With multisampling, R105 applies: the surface is found at the pixel's centre, or at the sample if the piece's corners don't
  * allow that. */
 void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out);
+/* The same so many pixels to the right and below, where the piece may have ended (R190). */
+void ref_surface_beside(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const float beside[2], ref_surface *out);
 void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[4]);
 
 /* texture.c */
@@ -66,6 +73,7 @@ float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *sur
 int ref_slot_counts(const e3d_texture_use *use, const ref_surface *surface);
 void ref_slot_coordinates(const e3d_texture_use *use, const ref_surface *surface, ref_coordinates *out);
 float ref_slot_sample(const e3d_texture_use *use, const ref_surface *surface, float out[4]);
+int32_t ref_slot_alpha_lod(const e3d_texture_use *use, const ref_surface *surface);
 void ref_find_textures(const ref_scene *scene, ref_surface *surface);
 
 /* environment.c */
@@ -93,6 +101,9 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
 /* exact_shadow.c */
 /* R98-R101: whether a caster is between a surface and a light. */
 int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface);
+
+/* texture.c, R190: lod of R26 before it is limited, or 0 for a texture without levels or alpha */
+int32_t ref_texture_alpha_lod(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at);
 
 /* texture.c, R29 and R30 for the fourth channel at level 0; returns the unit. */
 float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], float *out);

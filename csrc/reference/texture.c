@@ -37,21 +37,32 @@ static void find_changes(const e3d_texture_view *texture, const ref_surface *s, 
 }
 
 /* R26: the level in 1/256, from a squared length in texels that is at least 1. */
-static int32_t level_of_length(const e3d_texture_view *texture, float squared)
+static int32_t level_of_length(float squared)
 {
-    int32_t coarsest = (texture->level_count - 1) * 256, bits;
+    int32_t bits;
     memcpy(&bits, &squared, sizeof bits);
-    int32_t lod = (bits - 0x3F800000) / 65536;
-    return lod < coarsest ? lod : coarsest;
+    return (bits - 0x3F800000) / 65536;
 }
 
-/* R26 */
+/* R26: before it is limited to the levels that there are. */
 static int32_t level_of_detail(const e3d_texture_view *texture, const ref_surface *s, const ref_coordinates *at)
 {
     float along[2], down[2];
     find_changes(texture, s, at, along, down);
     float longest = ref_max(along[0] * along[0] + along[1] * along[1], down[0] * down[0] + down[1] * down[1]);
-    return level_of_length(texture, ref_max((longest * (s->r * s->r)) * (s->r * s->r), 1.0f));
+    return level_of_length(ref_max((longest * (s->r * s->r)) * (s->r * s->r), 1.0f));
+}
+
+static int32_t limited(const e3d_texture_view *texture, int32_t lod)
+{
+    int32_t coarsest = (texture->level_count - 1) * 256;
+    return lod < coarsest ? lod : coarsest;
+}
+
+/* R190 */
+int32_t ref_texture_alpha_lod(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at)
+{
+    return texture->filter == E3D_TRILINEAR && !texture->is_opaque ? level_of_detail(texture, surface, at) : 0;
 }
 
 /* The probes of an anisotropic filter: how many, how far apart in u and v, and at which level. */
@@ -98,7 +109,7 @@ static probes find_probes(const e3d_texture_view *texture, const ref_surface *s,
     const int32_t size[2] = {texture->levels[0].width, texture->levels[0].height};
     for (int c = 0; c < 2; c++)
         out.step[c] = (e.direction[c] * reach) * (1.0f / counted_size(texture, size[c]));
-    out.lod = level_of_length(texture, ref_max(e.longest2 * (share * share), e.shortest * e.shortest));
+    out.lod = limited(texture, level_of_length(ref_max(e.longest2 * (share * share), e.shortest * e.shortest)));
     return out;
 }
 
@@ -245,6 +256,6 @@ float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *sur
     else if (texture->filter == E3D_BILINEAR)
         sample_bilinear(texture, &texture->levels[0], s, t, out);
     else
-        sample_trilinear(texture, level_of_detail(texture, surface, at), s, t, out);
+        sample_trilinear(texture, limited(texture, level_of_detail(texture, surface, at)), s, t, out);
     return unit_of(texture);
 }

@@ -38,6 +38,14 @@ float ref_slot_sample(const e3d_texture_use *use, const ref_surface *surface, fl
     return ref_texture_sample(e3d_texture_get_view(use->texture), surface, &at, out);
 }
 
+/* R190 */
+int32_t ref_slot_alpha_lod(const e3d_texture_use *use, const ref_surface *surface)
+{
+    ref_coordinates at;
+    ref_slot_coordinates(use, surface, &at);
+    return ref_texture_alpha_lod(e3d_texture_get_view(use->texture), surface, &at);
+}
+
 /* ---- values (R46) ---- */
 
 static float multiplied(const e3d_texture_use *use, const ref_surface *s, int channel, float factor)
@@ -153,6 +161,16 @@ static void map_normal(const e3d_texture_use *use, float scale, const ref_surfac
 
 /* ---- all of it ---- */
 
+/* R193: how much wider normals make a lobe. */
+static float wide_of(const ref_scene *scene, const ref_surface *s, const e3d_texture_use *normals, float scale)
+{
+    if (!scene->frame->specular_antialiasing)
+        return 0.0f;
+    if (!ref_slot_counts(normals, s) || !e3d_texture_get_view(normals->texture)->has_spread)
+        return s->curvature;
+    return s->curvature + multiplied(normals, s, 3, scale * scale);
+}
+
 /* R141 */
 static void find_iridescence(const e3d_material *m, const ref_surface *s, ref_physical *out)
 {
@@ -184,7 +202,7 @@ static float depth_below(const ref_surface *surface, float thickness)
     return thickness * scale;
 }
 
-static void find_physical(const e3d_material *m, ref_surface *s)
+static void find_physical(const ref_scene *scene, const e3d_material *m, ref_surface *s)
 {
     const e3d_physical *physical = &m->physical;
     ref_physical *out = &s->physical;
@@ -192,6 +210,8 @@ static void find_physical(const e3d_material *m, ref_surface *s)
     out->metallic = multiplied(&m->metallic_roughness_texture, s, 2, physical->metallic);
     out->roughness = multiplied(&m->metallic_roughness_texture, s, 1, physical->roughness);
     out->occlusion = find_occlusion(m, s);
+    out->wide = wide_of(scene, s, &m->normal_texture, m->normal_scale);
+    out->coat_wide = wide_of(scene, s, &m->clearcoat_normal_texture, physical->clearcoat_normal_scale);
     out->specular = multiplied(&m->specular_texture, s, 3, physical->specular_intensity);
     multiply_three(&m->specular_color_texture, s, physical->reflectance, tint);
     for (int c = 0; c < 3; c++)
@@ -223,7 +243,7 @@ void ref_find_textures(const ref_scene *scene, ref_surface *surface)
         map_normal(&m->normal_texture, m->normal_scale, surface, surface->world_normal);
     }
     if (primitive->kind == REF_FACE && m->is_physical) {
-        find_physical(m, surface);
+        find_physical(scene, m, surface);
         multiply_three(&m->emissive_texture, surface, m->emissive, surface->emissive);
     }
     for (int r = 0; r < 3; r++) {

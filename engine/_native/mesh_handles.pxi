@@ -123,7 +123,7 @@ cdef class NativeTexture:
     cdef e3d_texture *handle
 
     def __cinit__(self, const uint8_t[:, :, ::1] pixels not None, bint decode_srgb, int filter, int wrap_u,
-                  int wrap_v, int anisotropy, float lod_bias):
+                  int wrap_v, int anisotropy, float lod_bias, bint holds_normals):
         require(pixels.shape[2] == 4, "pixels must have 4 channels")
         require(0 < pixels.shape[0] <= 32768 and 0 < pixels.shape[1] <= 32768, "pixels: wrong size")
         cdef e3d_status status
@@ -131,6 +131,7 @@ cdef class NativeTexture:
         sampling.filter = <e3d_filter>filter
         sampling.wrap[0], sampling.wrap[1] = <e3d_wrap>wrap_u, <e3d_wrap>wrap_v
         sampling.anisotropy, sampling.lod_bias = anisotropy, lod_bias
+        sampling.holds_normals = holds_normals
         with nogil:
             status = e3d_texture_create(
                 &pixels[0, 0, 0], <int32_t>pixels.shape[1], <int32_t>pixels.shape[0], decode_srgb,

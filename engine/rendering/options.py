@@ -124,6 +124,7 @@ class OptionKeywords(TypedDict, total=False):
     point_shape: PointShape
     size_unit: SizeUnit
     alpha_to_coverage: bool
+    specular_antialiasing: bool
     ambient_occlusion: bool
     ambient_occlusion_radius: float | None
 
@@ -200,9 +201,15 @@ class RenderOptions:
         Unit of line_width and point_size: pixels, or thousandths of the picture's height, so that a
         scene looks alike at every size; the result is clamped to 1 to 256 pixels.
     alpha_to_coverage : bool
-        With ``antialiasing="msaa"``: alpha of materials with ``alpha_mode="mask"`` determines how
-        many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets smooth
-        edges. Otherwise the alpha test keeps all samples or none.
+        With ``antialiasing="msaa"``: materials with ``alpha_mode="mask"`` cover as many of a
+        pixel's samples as lie on the side of the edge where alpha is above ``alpha_cutoff``, so
+        that foliage has edges as smooth as those of faces, and does not vanish in the distance.
+        Without it the alpha test keeps all samples of a pixel or none.
+    specular_antialiasing : bool
+        In mode "lit": physically based materials are as rough as their normals differ within a
+        pixel, from curved meshes and from normal maps seen from afar, so that small highlights do
+        not flicker when something moves. Without it each sample shows the roughness of the
+        material.
     ambient_occlusion : bool
         In mode "lit": darken ambient light in corners and hollows.
     ambient_occlusion_radius : float, optional
@@ -233,7 +240,8 @@ class RenderOptions:
     line_shape: LineShape = _choice("plain", _native.LINE_SHAPES, "line_shape")
     point_shape: PointShape = _choice("square", _native.POINT_SHAPES, "point_shape")
     size_unit: SizeUnit = _option("pixels", one_of(SIZE_UNITS))
-    alpha_to_coverage: bool = _option(False, flag, "alpha_to_coverage")
+    alpha_to_coverage: bool = _option(True, flag, "alpha_to_coverage")
+    specular_antialiasing: bool = _option(True, flag, "specular_antialiasing")
     ambient_occlusion: bool = _option(False, flag)
     ambient_occlusion_radius: float | None = _option(None, optional_positive)
 

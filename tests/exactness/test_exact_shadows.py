@@ -312,3 +312,48 @@ def test_lights_with_maps_and_exact_ones_side_by_side():
     ]
     for other in pictures[1:]:
         np.testing.assert_array_equal(pictures[0], other)
+
+
+def round_body(kind, shadow, subdivisions=1):
+    """A coarse ball with smooth normals."""
+    scene = e3d.Scene(ambient=(0, 0, 0))
+    ball = e3d.icosphere(1.0, subdivisions)
+    ball.materials = [e3d.Material(color=(1, 1, 1))]
+    scene.add(ball)
+    add_light(scene, kind, shadow, (2.0, 3.5, -1.5))
+    return scene, e3d.look_at((0.4, 0.6, 3.6), (0, 0, 0))
+
+
+@pytest.mark.parametrize("subdivisions", [0, 1, 2, 3])
+def test_a_round_body_shades_as_its_normals_say(kind, subdivisions):
+    """R194: its faces are flat, but throw no shadows on one another."""
+
+    def make(kind, shadow):
+        return round_body(kind, shadow, subdivisions)
+
+    changed, lit, _ = hidden_and_lit(make, kind)
+    assert lit.sum() > 200
+    assert not changed.any()
+
+
+@pytest.mark.parametrize("inside_out", [False, True])
+def test_walls_close_to_a_round_body_hide_the_light(kind, inside_out):
+    """R194: rays that begin beyond walls, nearer than the roundness, find them all the same."""
+    scene, pose = round_body(kind, "exact")
+    ball = next(node.object for node in scene.nodes if isinstance(node.object, e3d.Mesh))
+    ball.materials = [e3d.Material(color=(1, 1, 1), two_sided=True)]
+    faces = ball.faces[:, ::-1] if inside_out else ball.faces
+    skin = e3d.Mesh(ball.positions * np.float32(1.001), faces)
+    skin.materials = [e3d.Material(color=(0, 0, 0))]
+    scene.add(skin)
+    camera = e3d.PerspectiveCamera(), pose
+    frame = render(
+        scene,
+        camera,
+        size=SIZE,
+        outputs=("color", "face_id", "object_id"),
+        cull="back" if inside_out else "front",  # the near half of the skin
+    )
+    shown = frame.object_id == frame.object_id[SIZE[1] // 2, SIZE[0] // 2]
+    assert shown.sum() > 1000
+    assert not frame.color[..., :3].any()

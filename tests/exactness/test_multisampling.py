@@ -161,22 +161,88 @@ def test_inside_a_surface_a_pixel_is_that_of_one_sample(backend):
     assert np.array_equal(draw(corners, 16, backend, colors), draw(corners, 1, backend, colors))
 
 
-def test_alpha_to_coverage_covers_half_at_the_cutoff(backend):
-    corners = np.array([[(-3, -3), (3, -3), (0, 4)]], np.float32)
-    for alpha, share in ((0.0, 0), (0.2, 0.25), (0.4, 0.5), (0.7, 0.75), (1.0, 1)):
-        scene = e3d.Scene(background=(0, 0, 0))
-        points = np.concatenate([corners[0], np.zeros((3, 1), np.float32)], 1)
-        material = e3d.Material(
-            color=(1.0, 1.0, 1.0, alpha), alpha_mode="mask", alpha_cutoff=0.4, two_sided=True
-        )
-        scene.add(e3d.Mesh(points, [[0, 1, 2]], materials=[material]))
-        with Renderer(
-            SIZE, backend=backend, color_space="linear", samples=4, antialiasing="msaa"
-        ) as r:
-            smooth = r.render(scene, clip_camera(), mode="unlit", alpha_to_coverage=True).color
-            sharp = r.render(scene, clip_camera(), mode="unlit").color
-        assert (smooth[..., 0] == np.rint(255 * share)).all()
-        assert (sharp[..., 0] == 255 * (alpha >= 0.4)).all()
+def masked(points, cutoff=0.5, **arrays):
+    """Two triangles between four points of clip space, masked, white and unlit."""
+    material = e3d.Material(
+        color=arrays.pop("color", (1.0, 1.0, 1.0, 1.0)),
+        texture=arrays.pop("texture", None),
+        alpha_mode="mask",
+        alpha_cutoff=cutoff,
+        two_sided=True,
+        unlit=True,
+    )
+    scene = e3d.Scene(background=(0, 0, 0))
+    points = np.concatenate([np.float32(points), np.zeros((4, 1), np.float32)], 1)
+    scene.add(e3d.Mesh(points, [[0, 1, 2], [0, 2, 3]], materials=[material], **arrays))
+    return scene
+
+
+def shares(scene, backend, samples, **options):
+    """The share of each pixel's samples that is white."""
+    with Renderer(
+        SIZE, backend=backend, color_space="linear", samples=samples, antialiasing="msaa"
+    ) as renderer:
+        color = renderer.render(scene, clip_camera(), mode="unlit", **options).color
+    return np.rint(color[..., 0] * (samples / 255))
+
+
+def test_an_alpha_that_is_the_same_all_over_covers_all_or_nothing(backend):
+    corners = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
+    for alpha, share in ((0.0, 0), (0.39, 0), (0.4, 4), (0.41, 4), (1.0, 4)):
+        scene = masked(corners, 0.4, color=(1.0, 1.0, 1.0, alpha))
+        assert (shares(scene, backend, 4) == share).all()
+        assert (shares(scene, backend, 4, alpha_to_coverage=False) == share).all()
+
+
+@pytest.mark.parametrize("samples", [4, 16])
+@pytest.mark.parametrize("slope", [0.03, 0.1, 0.2])
+def test_an_edge_of_a_mask_is_a_pixel_wide(samples, slope, backend):
+    """R190: a band whose alpha rises from 0 to 1, along a slanted line and by so much a pixel."""
+    cutoff, way = 0.3, np.array([0.8, 0.6])
+    middle = np.array(SIZE) / 2  # in pixels, Y down: where alpha is the cutoff
+    along = np.array([-cutoff, 1 - cutoff, 1 - cutoff, -cutoff]) / slope
+    across = np.array([-1, -1, 1, 1])[:, None] * 100 * way[::-1] * (-1, 1)
+    corners = middle + along[:, None] * way + across
+    points = corners * 2 / SIZE - 1
+    colors = np.array([(1, 1, 1, alpha) for alpha in (0, 1, 1, 0)], np.float32)
+    got = shares(masked(points * (1, -1), cutoff, colors=colors), backend, samples)
+
+    def centred(x, y):
+        alpha = cutoff + slope * ((x - middle[0]) * way[0] + (y - middle[1]) * way[1])
+        above = 0.5 + 0.5 * (alpha - cutoff) / (1 - cutoff)
+        return np.where(alpha < cutoff, 0.5 * alpha / cutoff, above)
+
+    column, row = np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5)
+    distance = (column - middle[0]) * way[0] + (row - middle[1]) * way[1]
+    inside = (distance > -cutoff / slope + 0.5) & (distance < (1 - cutoff) / slope - 2)
+    side = (corners[2] - corners[0]) / np.linalg.norm(corners[2] - corners[0])
+    inside &= np.abs((column - corners[0, 0]) * side[1] - (row - corners[0, 1]) * side[0]) > 1.5
+    h = centred(column, row)
+    turn = np.hypot(centred(column + 1, row) - h, centred(column, row + 1) - h)
+    exact = ((h - 0.5) / turn + 0.5) * samples
+    sure = inside & (np.abs(exact + 0.5 - np.rint(exact + 0.5)) > 0.08)  # corners are snapped (R8)
+    assert np.array_equal(got[sure], np.floor(np.clip(exact, 0, samples) + 0.5)[sure])
+    partial = (got > 0) & (got < samples) & inside
+    assert partial.any()
+    assert np.abs(distance[partial]).max() < 1.5
+    hard = shares(
+        masked(points * (1, -1), cutoff, colors=colors), backend, samples, alpha_to_coverage=False
+    )
+    assert np.isin(hard[inside], (0, samples)).all()
+
+
+def test_masks_finer_than_pixels_keep_their_share(backend):
+    """R190: four levels up the alpha is the share that is covered."""
+    rng = np.random.default_rng(4)
+    pixels = np.full((1024, 1024, 4), 255, np.uint8)
+    pixels[..., 3] = 255 * (rng.random((1024, 1024)) < 0.3)
+    scene = masked(
+        [(-1, -1), (1, -1), (1, 1), (-1, 1)],
+        texture=e3d.Texture(pixels, filter="trilinear"),
+        uvs=np.float32([(0, 0), (1, 0), (1, 1), (0, 1)]),
+    )
+    assert abs(shares(scene, backend, 16).mean() / 16 - 0.3) < 0.03
+    assert not shares(scene, backend, 16, alpha_to_coverage=False).any()
 
 
 @pytest.mark.parametrize("to_coverage", [False, True])

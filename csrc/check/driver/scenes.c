@@ -287,7 +287,8 @@ static e3d_status add_materials(scene *s, random_stream *r)
         const e3d_sampling sampling = {.filter = (e3d_filter)random_below(r, 3),
                                        .wrap = {(e3d_wrap)random_below(r, 3), (e3d_wrap)random_below(r, 3)},
                                        .anisotropy = random_once_in(r, 2) ? 1 + random_below(r, E3D_MAX_ANISOTROPY) : 1,
-                                       .lod_bias = random_once_in(r, 2) ? random_float(r, -2.0f, 2.0f) : 0.0f};
+                                       .lod_bias = random_once_in(r, 2) ? random_float(r, -2.0f, 2.0f) : 0.0f,
+                                       .holds_normals = random_once_in(r, 3)};
         e3d_status status = e3d_texture_create(pixels, width, height, random_below(r, 2), &sampling, &s->textures[i]);
         if (status != E3D_OK)
             return status;
@@ -395,6 +396,7 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     if (frame->samples_axis == 1 && random_once_in(r, 3))
         frame->msaa_samples = 2 << random_below(r, 4);
     frame->alpha_to_coverage = random_below(r, 2);
+    frame->specular_antialiasing = random_below(r, 2);
 }
 
 /* Up to two apertures, in and beside the picture. */

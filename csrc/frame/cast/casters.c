@@ -56,7 +56,9 @@ e3d_status e3d_casters_prepare(e3d_caster_memory *memory, const e3d_frame *frame
     memory->index.lights = memory->lights;
     memory->index.world = memory->faces.world.data;
     memory->index.may_be_open = memory->faces.may_be_open.data;
+    memory->index.is_mirrored = memory->faces.is_mirrored.data;
     memory->index.is_open = e3d_caster_is_open;
+    memory->index.mesh_of = e3d_caster_mesh_of;
     memory->index.source = &memory->faces;
     return find_lights(memory, frame, threads);
 }
@@ -66,6 +68,7 @@ void e3d_casters_free(e3d_caster_memory *memory)
     e3d_array_free(&memory->faces.instances);
     e3d_array_free(&memory->faces.world);
     e3d_array_free(&memory->faces.may_be_open);
+    e3d_array_free(&memory->faces.is_mirrored);
     for (int n = 0; n < E3D_MAX_EXACT_LIGHTS; n++) {
         e3d_array_free(&memory->of_light[n].corners);
         for (int face = 0; face < E3D_CASTER_FACES; face++) {

@@ -1,6 +1,8 @@
 /* cast: the faces that cast exact shadows, instance by instance, and their corners in the world (R97). */
 #include "frame/cast/faces.h"
 
+#include <string.h>
+
 #include "data/mesh/mesh.h"
 #include "base/pool.h"
 #include "frame/pass/matrices.h"
@@ -57,6 +59,12 @@ const e3d_caster_instance *e3d_caster_instance_of(const e3d_caster_faces *faces,
     return &instances[low];
 }
 
+const void *e3d_caster_mesh_of(const e3d_caster_index *index, uint32_t caster)
+{
+    const e3d_caster_faces *faces = index->source;
+    return faces->casters.draws[e3d_caster_instance_of(faces, caster)->draw].mesh;
+}
+
 /* ---- corners ---- */
 
 static void place_faces(const e3d_caster_faces *faces, const e3d_caster_instance *instance, int32_t first, int32_t end)
@@ -66,8 +74,10 @@ static void place_faces(const e3d_caster_faces *faces, const e3d_caster_instance
     const e3d_material *materials = faces->casters.materials + draw->material_base;
     float (*world)[9] = (float (*)[9])faces->world.data + instance->first, m[12];
     uint8_t *may_be_open = (uint8_t *)faces->may_be_open.data + instance->first;
+    float normals[9];
     double matrix[16];
     e3d_world_matrix(draw, instance->number, matrix);
+    memset((uint8_t *)faces->is_mirrored.data + instance->first + first, e3d_normal_matrix(matrix, normals) != 0, (size_t)(end - first));
     for (int k = 0; k < 12; k++)
         m[k] = (float)matrix[k];
     for (int32_t f = first; f < end; f++) {
@@ -98,7 +108,8 @@ e3d_status e3d_place_casters(e3d_caster_faces *faces, int32_t threads)
     if (status != E3D_OK)
         return status;
     if (!e3d_array_reserve(&faces->world, (size_t)faces->count + 1, sizeof(float[9])) ||
-        !e3d_array_reserve(&faces->may_be_open, (size_t)faces->count + 1, 1))
+        !e3d_array_reserve(&faces->may_be_open, (size_t)faces->count + 1, 1) ||
+        !e3d_array_reserve(&faces->is_mirrored, (size_t)faces->count + 1, 1))
         return E3D_OUT_OF_MEMORY;
     e3d_pool_share(threads, (int)((faces->count + CASTERS_A_TASK - 1) / CASTERS_A_TASK), place_some, faces);
     return E3D_OK;

@@ -6,7 +6,7 @@
 #include "frame/pass/plan.h"
 #include "frame/run/renderer.h"
 #include "frame/shade/shade.h"
-#include "frame/tile/alpha_test.h"
+#include "frame/tile/alpha_list.h"
 #include "frame/tile/multisample.h"
 #include "frame/tile/slots.h"
 

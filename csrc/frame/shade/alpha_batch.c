@@ -41,13 +41,31 @@ static int32_t next_place(const e3d_visible_primitive *primitives, int32_t primi
     return list->at++;
 }
 
+/* R190: lod of each sample of a batch, or NULL where the alpha's texture has none. */
+static const int32_t *lods_of(const e3d_bucket *bucket, const e3d_shade_memory *memory)
+{
+    const e3d_read_textures *read = &memory->textures.read;
+    int32_t texture = bucket->mapped ? read->of_slot[E3D_SLOT_TEXTURE] : -1;
+    if (bucket->mapped ? texture < 0 : !bucket->textured)
+        return NULL;
+    const e3d_texture_view *view = e3d_texture_get_view(bucket->material->texture.texture);
+    if (view->filter != E3D_TRILINEAR || view->is_opaque)
+        return NULL;
+    return bucket->mapped ? memory->textures.batch.lod[read->read[texture].place] : memory->batch.lod;
+}
+
 void e3d_keep_alphas(const e3d_steps *s)
 {
     const e3d_shade_memory *memory = s->out->memory;
     const e3d_batch *batch = &memory->batch;
     e3d_shaded_list *list = s->out->list;
-    for (int i = 0; i < batch->count; i++)
-        list->alpha[next_place(memory->primitives.data, memory->surfaces.primitive[batch->surface[i]], list)] = batch->alpha[i];
+    const int32_t *lods = list->lod ? lods_of(s->bucket, memory) : NULL;
+    for (int i = 0; i < batch->count; i++) {
+        int32_t place = next_place(memory->primitives.data, memory->surfaces.primitive[batch->surface[i]], list);
+        list->alpha[place] = batch->alpha[i];
+        if (list->lod)
+            list->lod[place] = lods ? lods[i] : 0;
+    }
 }
 
 /* Transposes the clamped colours of four samples from channels to rows. */

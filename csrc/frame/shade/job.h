@@ -62,6 +62,7 @@ typedef enum e3d_sink {
 /* The results of shading a list, in its order. */
 typedef struct e3d_shaded_list {
     float *alpha;        /* E3D_SINK_ALPHA_TEST */
+    int32_t *lod;        /* E3D_SINK_ALPHA_TEST: NULL, or the level at which the alpha's texture is read (R190) */
     float (*color)[4];   /* E3D_SINK_A_BUFFER: clamped colours, with alpha; -alpha for a face that a wireframe doesn't show */
     float (*through)[4]; /* E3D_SINK_A_BUFFER: NULL, or the shares of light that pass (e3d_alpha_layers) */
     float (*light)[4];   /* E3D_SINK_A_BUFFER: NULL, or radiances, with alpha */

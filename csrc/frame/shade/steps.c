@@ -145,6 +145,8 @@ int e3d_receives_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucke
     return e3d_plans(pass, E3D_PLAN_FINDS_EXACT_SHADOWS) && bucket->lit && !bucket->unshadowed;
 }
 
+int e3d_has_smooth_normals(const e3d_bucket *bucket) { return bucket->face && !bucket->flat; }
+
 static int finds_alphas(e3d_sink sink) { return sink == E3D_SINK_ALPHA_TEST || sink == E3D_SINK_A_BUFFER || sink == E3D_SINK_SAMPLES; }
 
 /* Whether the samples themselves show, and nothing behind them. */
@@ -214,6 +216,10 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
         wanted |= E3D_WANT_SURFACE;
     if (pass->frame->normals == E3D_NORMALS_FACET && bucket->lit && wanted & E3D_WANT_POSITION)
         wanted |= E3D_WANT_FACET;
+    if (wanted & E3D_WANT_NORMAL && e3d_widens_lobes(pass, bucket))
+        wanted |= E3D_WANT_CURVATURE;
+    if (e3d_receives_exact_shadows(pass, bucket) && e3d_has_smooth_normals(bucket))
+        wanted |= E3D_WANT_WEIGHTS;
     return bucket->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 

@@ -26,18 +26,31 @@ int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
 /* Whether a bucket is lit; then the textures are read that light needs. */
 static int finds_light(const e3d_prepared *pass, const e3d_bucket *bucket) { return e3d_plans(pass, E3D_PLAN_COLORS) && bucket->lit; }
 
+int e3d_widens_lobes(const e3d_prepared *pass, const e3d_bucket *bucket)
+{
+    return pass->frame->specular_antialiasing && bucket->material->is_physical && finds_light(pass, bucket);
+}
+
 static int is_coated(const e3d_physical *p) { return p->clearcoat != 0.0f; }
 static int has_sheen(const e3d_physical *p) { return e3d_adds(p->sheen_color); }
 static int absorbs(const e3d_physical *p) { return p->thickness != 0.0f && e3d_adds(p->absorption); }
 static int is_anisotropic(const e3d_physical *p) { return p->anisotropy != 0.0f; }
 static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f; }
 
+/* Whether a slot's texture tells how far normals spread, and lobes want to know. */
+static int reads_spread(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot, const e3d_texture_use *use)
+{
+    int holds_normals = slot == E3D_SLOT_NORMAL || slot == E3D_SLOT_CLEARCOAT_NORMAL;
+    return holds_normals && e3d_texture_get_view(use->texture)->has_spread && e3d_widens_lobes(pass, bucket);
+}
+
 /* Whether the fourth channel of a slot is read. */
-static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
+static int reads_fourth(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot, const e3d_texture_use *use)
 {
 #define FOURTH(slot, channel, name, factor) | ((channel) == 3) << slot
     enum { ALWAYS = 0 E3D_EACH_VARYING(FOURTH) };
-    return ((ALWAYS >> slot) & 1) || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
+    return ((ALWAYS >> slot) & 1) || (slot == E3D_SLOT_TEXTURE && bucket->material->alpha_mode != E3D_ALPHA_OPAQUE) ||
+           reads_spread(pass, bucket, slot, use);
 }
 
 /* Whether a slot is read for what the frame asks for. */
@@ -125,7 +138,7 @@ void e3d_find_textures(const e3d_prepared *pass, const e3d_bucket *bucket, int w
 #define FIND(slot, name) \
     out->of_slot[slot] = -1; \
     if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_texture_counts(bucket, &m->name)) \
-        out->of_slot[slot] = find_texture(out, &m->name, reads_alpha(m, slot));
+        out->of_slot[slot] = find_texture(out, &m->name, reads_fourth(pass, bucket, slot, &m->name));
     E3D_EACH_TEXTURE_SLOT(FIND)
     int stretched = m->is_physical && is_anisotropic(&m->physical) && finds_light(pass, bucket);
     if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
@@ -282,11 +295,23 @@ static void add_rare(const e3d_texture_memory *textures, const e3d_physical *p, 
     brdf->is_rare = brdf->transmits || brdf->anisotropic || brdf->iridescent;
 }
 
-static e3d_brdf brdf_of(const e3d_bucket *bucket, const e3d_texture_memory *textures)
+/* R193: by how much the levels of a normal texture widen a lobe. */
+static e3d_varying spread_of(const e3d_texture_memory *textures, e3d_texture_slot slot, float scale)
+{
+    int32_t texture = textures->read.of_slot[slot];
+    if (texture < 0 || !textures->read.read[texture].view->has_spread)
+        return (e3d_varying){NULL, 0.0f};
+    return varying_of(textures, slot, 3, scale * scale);
+}
+
+static e3d_brdf brdf_of(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_texture_memory *textures)
 {
     const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
     e3d_brdf brdf = {
+        .is_widened = e3d_widens_lobes(pass, bucket),
+        .spread = spread_of(textures, E3D_SLOT_NORMAL, m->normal_scale),
+        .coat_spread = spread_of(textures, E3D_SLOT_CLEARCOAT_NORMAL, p->clearcoat_normal_scale),
         .occlusion_strength = p->occlusion_strength,
         .transmits = bucket->transmits,
         .absorbs = bucket->transmits && absorbs(p),
@@ -309,7 +334,7 @@ static e3d_brdf brdf_of(const e3d_bucket *bucket, const e3d_texture_memory *text
 
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
-    const e3d_brdf brdf = brdf_of(bucket, &memory->textures);
+    const e3d_brdf brdf = brdf_of(pass, bucket, &memory->textures);
     if (brdf.absorbs)
         find_depths(pass, memory, memory->textures.batch.depth);
     pass->kernels->physical(&memory->batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->textures.batch);

@@ -8,6 +8,8 @@
 #include "frame/shade/job.h"
 
 /* Whether a material's faces are shaded with e3d_read_textures, and not just with a base colour. */
+/* R193: whether the lobes of a bucket are as wide as the normals in a pixel ask for. */
+int e3d_widens_lobes(const e3d_prepared *pass, const e3d_bucket *bucket);
 int e3d_needs_textures(const e3d_prepared *pass, const e3d_material *material);
 /* Whether a texture counts on the faces of a bucket (R45). */
 int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use);

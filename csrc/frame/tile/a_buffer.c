@@ -21,7 +21,7 @@
 #include "frame/shade/shade.h"
 #include "frame/store/outputs.h"
 #include "frame/tile/a_buffer.h"
-#include "frame/tile/alpha_test.h"
+#include "frame/tile/alpha_list.h"
 #include "frame/tile/piece.h"
 
 void e3d_a_buffer_free(e3d_a_buffer *f)

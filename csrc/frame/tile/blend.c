@@ -23,7 +23,7 @@
 #include "frame/shade/runs.h"
 #include "frame/shade/shade.h"
 #include "frame/tile/a_buffer.h"
-#include "frame/tile/alpha_test.h"
+#include "frame/tile/alpha_list.h"
 #include "frame/tile/blend.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/piece.h"

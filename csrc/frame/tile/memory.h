@@ -58,6 +58,13 @@ typedef struct e3d_alpha_memory {
     e3d_a_buffer a_buffer;
 } e3d_alpha_memory;
 
+/* The entries of a list of pixels whose alphas cover a part of them (R190): their covers, or 0; and in the list that is left of
+ * them the levels of their textures, and the alphas to the right and below. */
+typedef struct e3d_edges_memory {
+    int32_t cover[E3D_SHOWN_ROOM], lod[E3D_SHOWN_ROOM];
+    float right[E3D_SHOWN_ROOM], below[E3D_SHOWN_ROOM];
+} e3d_edges_memory;
+
 /* Pixels that are averaged, and where they go. */
 typedef struct e3d_average {
     int32_t count;
@@ -77,6 +84,7 @@ typedef struct e3d_multisample_memory {
     e3d_average average;
     e3d_msaa_list alpha; /* the list of records with alpha */
     e3d_array covers;      /* int32_t: its covers */
+    e3d_edges_memory edges;
 } e3d_multisample_memory;
 
 /* The memory of spans, and whether they paid lately. */

@@ -22,7 +22,7 @@
 #include "frame/shade/runs.h"
 #include "frame/store/backdrop.h"
 #include "frame/store/store.h"
-#include "frame/tile/alpha_test.h"
+#include "frame/tile/alpha_list.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/msaa_mixed.h"
 

@@ -39,11 +39,13 @@ static ALWAYS_INLINE vf32 interpolate_offset(const int32_t *offsets, vi32 number
     return v_mul(v_float(v_gatheri(offsets, number)), v_setf(1.0f / E3D_SUBPIXEL));
 }
 
-/* R105: interpolates at the pixel's centre if no weight is negative there, else at the given sample. */
+/* R105: interpolates at the pixel's centre if no weight is negative there, else at the given sample; or beside that (R190),
+ * where weights may be negative. */
 static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_surfaces *s, const element_lanes *lanes, int same,
                                              weight_lanes *out)
 {
     vf32 p[3], px[3], py[3], zero = v_setf(0.0f), u = zero, v = zero;
+    int is_beside = batch->beside[0] != 0.0f || batch->beside[1] != 0.0f;
     interpolate_base(s, lanes, same, v_loadi(batch->sample + i), out);
     take_three(s->p, lanes, same, p);
     take_three(s->px, lanes, same, px);
@@ -53,10 +55,10 @@ static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_
         out->w[k] = v_add(v_add(p[k], v_mul(out->dx, px[k])), v_mul(out->dy, py[k]));
         inside = v_mand(inside, v_ge(out->w[k], zero));
     }
-    if (v_any(v_mnot(inside))) {
+    if (is_beside || v_any(v_mnot(inside))) {
         vi32 number = v_loadi(batch->number + i);
-        u = v_self(inside, zero, interpolate_offset(batch->pattern->x, number));
-        v = v_self(inside, zero, interpolate_offset(batch->pattern->y, number));
+        u = v_add(v_self(inside, zero, interpolate_offset(batch->pattern->x, number)), v_setf(batch->beside[0]));
+        v = v_add(v_self(inside, zero, interpolate_offset(batch->pattern->y, number)), v_setf(batch->beside[1]));
         out->dx = v_add(out->dx, u);
         out->dy = v_add(out->dy, v);
         for (int k = 0; k < 3; k++)
@@ -64,7 +66,7 @@ static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_
     }
     v_storef(batch->shift[0] + i, u);
     v_storef(batch->shift[1] + i, v);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && !is_beside; k++)
         out->w[k] = v_max(out->w[k], v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
 }
 
@@ -76,13 +78,14 @@ static ALWAYS_INLINE vf32 weighted_sum(const e3d_surface_floats rows[3], const e
     return dot_three(w, corner);
 }
 
-/* R22: normalises v; without a usable length it becomes 0 or NaN. */
-static inline void unit_length(vf32 v[3])
+/* R22: normalises v; without a usable length it becomes 0 or NaN. Returns 1 / length. */
+static inline vf32 unit_length(vf32 v[3])
 {
     vf32 length2 = v_max(v_setf(E3D_LEAST_LENGTH2), dot_three(v, v)); /* a NaN stays one */
     vf32 inverse = v_div(v_setf(1.0f), v_sqrt(length2));
     for (int k = 0; k < 3; k++)
         v[k] = v_mul(v[k], inverse);
+    return inverse;
 }
 
 /* ---- stages: each over all vectors of a batch ---- */
@@ -142,16 +145,38 @@ static ALWAYS_INLINE vi32 level_of(const e3d_surface_floats slopes[2][3], const 
     return v_shr(v_subi(v_asi(q), v_asi(one)), 16);
 }
 
+/* R191: the square of how far a unit normal turns along an axis of the picture, over that of 1 / length. */
+static ALWAYS_INLINE vf32 turned_square(const e3d_surface_floats planes[3], const vf32 n[3], const sample_vector *v)
+{
+    vf32 plane[3], change[3];
+    take_three(planes, &v->elements, v->same, plane);
+    for (int c = 0; c < 3; c++)
+        change[c] = weighted_sum(v->s->normal[c], &v->elements, v->same, plane);
+    vf32 along = dot_three(n, change);
+    for (int c = 0; c < 3; c++)
+        change[c] = v_sub(change[c], v_mul(n[c], along));
+    return dot_three(change, change);
+}
+
+/* R191 */
+static ALWAYS_INLINE vf32 curvature_of(const vf32 n[3], vf32 inverse, const sample_vector *v)
+{
+    vf32 sum = v_add(turned_square(v->s->px, n, v), turned_square(v->s->py, n, v));
+    return v_min(v_mul(v_mul(sum, v_setf(E3D_OVER_2PI)), v_mul(inverse, inverse)), v_setf(E3D_MOST_CURVATURE));
+}
+
 /* R22 */
-static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], int flat, const sample_vector *v)
+static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], int wanted, const sample_vector *v)
 {
     vf32 n[3];
     for (int c = 0; c < 3; c++)
-        n[c] = flat ? take(v->s->normal[c][0], &v->elements, v->same)
-                    : weighted_sum(v->s->normal[c], &v->elements, v->same, w);
-    unit_length(n);
+        n[c] = wanted & E3D_WANT_FLAT ? take(v->s->normal[c][0], &v->elements, v->same)
+                                      : weighted_sum(v->s->normal[c], &v->elements, v->same, w);
+    vf32 inverse = unit_length(n);
     for (int c = 0; c < 3; c++)
         v_storef(batch->normal[c] + v->i, n[c]);
+    if (wanted & E3D_WANT_CURVATURE)
+        v_storef(batch->curvature + v->i, wanted & E3D_WANT_FLAT ? v_setf(0.0f) : curvature_of(n, inverse, v));
 }
 
 /* R153 */
@@ -186,7 +211,7 @@ static ALWAYS_INLINE void interpolate_vector(e3d_batch *batch, const sample_vect
     if (wanted & E3D_WANT_FACET)
         find_middle(batch, v);
     if (wanted & E3D_WANT_NORMAL)
-        interpolate_normal(batch, w, wanted & E3D_WANT_FLAT, v);
+        interpolate_normal(batch, w, wanted, v);
 }
 
 static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vector *v, const void *how)

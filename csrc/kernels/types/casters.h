@@ -45,7 +45,10 @@ typedef struct e3d_caster_index {
     int32_t light_count;
     const float (*world)[9];    /* for each caster the corners' x, y, z */
     const uint8_t *may_be_open; /* for each caster whether its material has holes */
+    const uint8_t *is_mirrored; /* for each caster whether its instance's matrix mirrors */
     /* Whether a caster with holes is open at a hit with these weights (R101). */
     int (*is_open)(const struct e3d_caster_index *index, uint32_t caster, const float weight[3]);
-    const void *source; /* for is_open */
+    /* The mesh that a caster belongs to. */
+    const void *(*mesh_of)(const struct e3d_caster_index *index, uint32_t caster);
+    const void *source; /* for these two */
 } e3d_caster_index;

@@ -49,6 +49,10 @@ typedef struct e3d_surfaces {
 /* The planes of surfaces, if lights have exact shadows (R100). */
 typedef struct e3d_receivers {
     e3d_surface_floats normal[3], slack[3], limit;
+    int32_t is_smooth;                        /* not 0: normals are those of the corners, so that R194 holds for */
+    const e3d_surfaces *surfaces;             /* these surfaces, */
+    e3d_surface_floats corner_normal[3][3];   /* with unit normals: [component][vertex] */
+    const void *mesh[E3D_BATCH_SURFACES + E3D_PAD]; /* of each surface */
 } e3d_receivers;
 
 /* R30: the unit of texels. */
@@ -78,6 +82,7 @@ typedef struct e3d_batch {
     e3d_lane_array energy[3], shine[3], alpha;
     uint32_t shadowed_lights[E3D_BATCH + E3D_PAD]; /* a bit for each light with exact shadows, set if the light is hidden */
     e3d_lane_array visibility; /* R129, if the frame has it */
+    e3d_lane_array curvature;  /* R191 */
     /* `reached` of R93 for the lights whose numbers are in `sun`; the kernels that light the batch find it */
     e3d_lane_array reached[E3D_SUNS];
     int32_t sun[E3D_SUNS];
@@ -87,6 +92,7 @@ typedef struct e3d_batch {
     const e3d_sample_pattern *pattern;
     int32_t number[E3D_BATCH + E3D_PAD];   /* the sample of the pattern that replaces the centre, if that can't be used */
     e3d_lane_array shift[2];               /* the offset from the centre in samples */
+    float beside[2];                       /* how much is added to that (R190) */
 } e3d_batch;
 
 /* The samples' positions in world space, wherever they are lit. */
@@ -104,7 +110,8 @@ enum {
     E3D_WANT_ALPHA = 128,  /* the alphas of vertices and instances, if these have colours */
     E3D_WANT_FACET = 512,  /* with E3D_WANT_POSITION: light is found in the middle of the face (R153) */
     /* All textures of a material with more than a base colour; without it, only those that alpha needs */
-    E3D_WANT_TEXTURES = 256
+    E3D_WANT_TEXTURES = 256,
+    E3D_WANT_CURVATURE = 1024 /* with E3D_WANT_NORMAL */
 };
 
 /* The lights of a frame. `reach` has five rows of a number a light, and E3D_PAD more: x, y and z of its position, the square

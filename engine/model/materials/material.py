@@ -208,6 +208,7 @@ class Material(ShownInNotebooks, Versioned):
     normal_texture: TextureSlot = TextureSlot(
         default=None,
         is_color=False,
+        is_normals=True,
         gltf="normalTexture",
         doc="Directions in tangent space, 0 … 255 for -1 … 1: red to the right, green up in the "
         "image.",
@@ -227,6 +228,7 @@ class Material(ShownInNotebooks, Versioned):
     clearcoat_normal_texture: TextureSlot = TextureSlot(
         default=None,
         is_color=False,
+        is_normals=True,
         gltf="clearcoat/clearcoatNormalTexture",
         doc="As ``normal_texture``, of the coat.",
     )

@@ -174,13 +174,23 @@ class TextureSlot(Parameter[SlotTexture, SlotTexture]):
     is_color : bool
         Whether the texture holds colours, decoded by its ``color_space``; other textures hold plain
         numbers.
+    is_normals : bool
+        Whether these numbers are directions, which spread within the texels of mip levels.
     default, doc, gltf
         As in `Parameter`.
     """
 
-    def __init__(self, *, is_color: bool, default: None, doc: str, gltf: str = "") -> None:
+    def __init__(
+        self,
+        *,
+        is_color: bool,
+        is_normals: bool = False,
+        default: None,
+        doc: str,
+        gltf: str = "",
+    ) -> None:
         super().__init__(TEXTURE, default=default, doc=doc, gltf=gltf)
-        self.is_color = is_color
+        self.is_color, self.is_normals = is_color, is_normals
 
 
 def parameters_of(cls: type) -> dict[str, Parameter[Any, Any]]:

@@ -20,7 +20,7 @@ from ...model.materials.display_colors import shading_color
 from ...model.materials.material import PARAMETERS, Material, placed_textures_of
 from ...model.materials.parameters import TextureSlot
 from ...model.materials.textures import PlacedTexture, Reading, Texture
-from .native_handles import is_new, native_texture
+from .native_handles import Content, is_new, native_texture
 
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 _LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
@@ -91,7 +91,7 @@ class MaterialList:
             How many may be made at once; 0: as many as there are CPUs.
         """
         wanted = dict.fromkeys(
-            (placed.texture, _space(slot, self._color_space), self.reading)
+            (placed.texture, _content(slot, self._color_space), self.reading)
             for material in materials
             if material not in self.untextured
             for slot, placed in placed_textures_of(material).items()
@@ -128,8 +128,8 @@ class MaterialList:
         self, slot: str, placed: PlacedTexture
     ) -> tuple[NativeTexture, int, list[float] | None]:
         """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
-        space = _space(slot, self._color_space)
-        handle = native_texture(placed.texture, space, self.reading)
+        content = _content(slot, self._color_space)
+        handle = native_texture(placed.texture, content, self.reading)
         return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None
 
     def _note_textures(self, material: Material, textures: set[Texture]) -> None:
@@ -196,6 +196,10 @@ def _absorption(left: float, depth: float) -> float:
     return min(0.0, math.log2(max(left, _LEAST_LEFT)) / depth)
 
 
-def _space(slot: str, color_space: ColorSpace) -> ColorSpace:
+def _content(slot: str, color_space: ColorSpace) -> Content:
     row = PARAMETERS[slot]
-    return color_space if isinstance(row, TextureSlot) and row.is_color else "linear"
+    if not isinstance(row, TextureSlot):
+        return "linear"
+    if row.is_normals:
+        return "normals"
+    return color_space if row.is_color else "linear"

@@ -8,7 +8,7 @@ Arrays that only some pictures need (normals, edges) are added to a mesh's handl
 from __future__ import annotations
 
 import operator
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 from weakref import WeakKeyDictionary
 
 from ..._native.rasterizer import (
@@ -18,7 +18,6 @@ from ..._native.rasterizer import (
     NativeMesh,
     NativeTexture,
 )
-from ...choices import ColorSpace
 from ...model.environments.environment import Environment
 from ...model.geometry.creases import creased_arrays, has_creases
 from ...model.geometry.derived import arrays_of, derived
@@ -40,7 +39,8 @@ _meshes: WeakKeyDictionary[Mesh, tuple[dict[str, Any], dict[str, Any], NativeMes
     WeakKeyDictionary()
 )
 _environments: WeakKeyDictionary[Environment, NativeEnvironment] = WeakKeyDictionary()
-_Handles: TypeAlias = dict[tuple[bool, bool], tuple[tuple[Any, ...], NativeTexture]]
+Content: TypeAlias = Literal["srgb", "linear", "normals"]
+_Handles: TypeAlias = dict[tuple[bool, bool, bool], tuple[tuple[Any, ...], NativeTexture]]
 _textures: WeakKeyDictionary[Texture, _Handles] = WeakKeyDictionary()
 
 
@@ -79,28 +79,30 @@ def is_new(texture: Texture) -> bool:
 
 
 def native_texture(
-    texture: Texture, color_space: ColorSpace, reading: Reading | None = None
+    texture: Texture, content: Content, reading: Reading | None = None
 ) -> NativeTexture:
-    """Return a texture's current handle, for renderers with a given colour space.
+    """Return a texture's current handle, for what it holds.
 
     Parameters
     ----------
     texture : Texture
-    color_space : {"srgb", "linear"}
+    content : {"srgb", "linear", "normals"}
+        Colours, for renderers of either colour space; or numbers as they are; or directions.
     reading : callable, optional
         As in `SceneData`.
     """
     pixels = texture.pixels
     read = (reading or own_reading)(texture)
     sampling = texture.filter, texture.side_wraps, *read
-    decode = color_space == "srgb" and texture.color_space == "srgb"
-    key = decode, read != own_reading(texture)
+    decode = content == "srgb" and texture.color_space == "srgb"
+    holds_normals = content == "normals"
+    key = decode, holds_normals, read != own_reading(texture)
     natives = _textures.setdefault(texture, {})
     known = natives.get(key)
     if known is None or known[0][0] is not pixels or known[0][1:] != sampling:
         filter, sides, *level = sampling
         wraps = (WRAPS[name] for name in sides)
-        native = NativeTexture(pixels, decode, FILTERS[filter], *wraps, *level)
+        native = NativeTexture(pixels, decode, FILTERS[filter], *wraps, *level, holds_normals)
         known = natives[key] = (pixels, *sampling), native
     return known[1]
 

@@ -1,4 +1,4 @@
-/* BRDF: physically based materials at the samples of a vector (R49, R134, R141). */
+/* BRDF: physically based materials at the samples of a vector (R49, R134, R141, R193). */
 #pragma once
 
 #include "base/always_inline.h"
@@ -49,12 +49,25 @@ static ALWAYS_INLINE const e3d_lane_array *coat_normals(const e3d_texture_batch 
     return brdf->coat_is_mapped ? m->coat_normal : m->shading_normal;
 }
 
-static ALWAYS_INLINE void lobe_begin(const vf32 normal[3], const vf32 view[3], vf32 roughness, lobe_lanes *lobe)
+/* R49 */
+static ALWAYS_INLINE void lobe_width(vf32 roughness, lobe_lanes *lobe)
 {
-    vf32 one = v_setf(1.0f);
-    lobe->roughness = v_min(v_max(roughness, v_setf(E3D_LEAST_ROUGHNESS)), one);
+    lobe->roughness = v_min(v_max(roughness, v_setf(E3D_LEAST_ROUGHNESS)), v_setf(1.0f));
     vf32 alpha = v_mul(lobe->roughness, lobe->roughness);
     lobe->A = v_mul(alpha, alpha);
+}
+
+/* R193 */
+static ALWAYS_INLINE void lobe_widen(const e3d_batch *batch, const e3d_varying *spread, int i, lobe_lanes *lobe)
+{
+    vf32 wide = v_add(v_loadf(batch->curvature + i), varying_at(spread, i));
+    lobe->A = v_min(v_add(lobe->A, wide), v_setf(1.0f));
+    lobe->roughness = v_self(v_gt(wide, v_setf(0.0f)), v_sqrt(v_sqrt(lobe->A)), lobe->roughness);
+}
+
+static ALWAYS_INLINE void lobe_begin(const vf32 normal[3], const vf32 view[3], lobe_lanes *lobe)
+{
+    vf32 one = v_setf(1.0f);
     lobe->facing = dot_three(normal, view);
     lobe->nv = v_max(environment_abs(lobe->facing), v_setf(E3D_LEAST_COSINE));
     lobe->root = v_sqrt(v_add(lobe->A, v_mul(v_sub(one, lobe->A), v_mul(lobe->nv, lobe->nv))));
@@ -87,7 +100,10 @@ static ALWAYS_INLINE void brdf_begin(const e3d_batch *batch, const e3d_texture_b
     load_three(batch->normal, i, normal);
     load_three(batch->color, i, albedo);
     brdf_view(lighting, batch, i, at);
-    lobe_begin(normal, at->view, varying_at(&brdf->roughness, i), &at->base);
+    lobe_width(varying_at(&brdf->roughness, i), &at->base);
+    if (brdf->is_widened)
+        lobe_widen(batch, &brdf->spread, i, &at->base);
+    lobe_begin(normal, at->view, &at->base);
     at->metallic = varying_at(&brdf->metallic, i);
     vf32 rest = v_sub(one, at->metallic), f90 = v_add(specular, v_mul(v_sub(one, specular), at->metallic));
     for (int k = 0; k < 3; k++) {
@@ -101,7 +117,10 @@ static ALWAYS_INLINE void brdf_begin(const e3d_batch *batch, const e3d_texture_b
     at->rise = v_sub(specular, at->top);
     if (has_coat) {
         load_three(coat_normals(m, brdf), i, normal);
-        lobe_begin(normal, at->view, varying_at(&brdf->coat_roughness, i), &at->coat);
+        lobe_width(varying_at(&brdf->coat_roughness, i), &at->coat);
+        if (brdf->is_widened)
+            lobe_widen(batch, &brdf->coat_spread, i, &at->coat);
+        lobe_begin(normal, at->view, &at->coat);
     }
     if (has_sheen) {
         vf32 rough = usable_sheen_roughness(brdf, i);

@@ -1,4 +1,4 @@
-/* exact shadows: finds which lights are hidden from samples (R98-R102). A sample's cell, in each level of a light's grid,
+/* exact shadows: finds which lights are hidden from samples (R98-R102, R194). A sample's cell, in each level of a light's grid,
  * holds all casters that R99 may find: both sides compare the same rounded numbers, and cells are found by monotone steps. */
 #pragma once
 
@@ -8,6 +8,7 @@
 #include "kernels/types/casters.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
+#include "kernels/generic/interpolate.inl"
 #include "kernels/generic/shade/light.inl"
 
 /* ---- planes of surfaces (R100) ---- */
@@ -44,10 +45,27 @@ static ALWAYS_INLINE void exact_plane(const e3d_surfaces *s, int n, e3d_receiver
     v_storef(out->limit + n, v_mul(v_add(v_add(limit[0], limit[1]), limit[2]), share));
 }
 
+/* R194: the unit normals of the corners. */
+static ALWAYS_INLINE void exact_corner_normals(const e3d_surfaces *s, int n, e3d_receivers *out)
+{
+    for (int k = 0; k < 3; k++) {
+        vf32 normal[3];
+        for (int c = 0; c < 3; c++)
+            normal[c] = v_loadf(s->normal[c][k] + n);
+        unit_length(normal);
+        for (int c = 0; c < 3; c++)
+            v_storef(out->corner_normal[c][k] + n, normal[c]);
+    }
+}
+
 static void kernel_receivers(const e3d_surfaces *surfaces, e3d_receivers *out)
 {
-    for (int n = 0; n < surfaces->count; n += V_LANES)
+    out->surfaces = surfaces;
+    for (int n = 0; n < surfaces->count; n += V_LANES) {
         exact_plane(surfaces, n, out);
+        if (out->is_smooth)
+            exact_corner_normals(surfaces, n, out);
+    }
 }
 
 /* ---- a vector of samples and one light ---- */
@@ -64,6 +82,8 @@ typedef struct exact_lanes {
     vf32 towards[3]; /* the direction to the light, of any length */
     int has_plane;
     const e3d_receivers *receivers;
+    int leaves;  /* R194: in the lanes of `turned`, rays may leave the samples' own bodies */
+    vmask turned;
 } exact_lanes;
 
 static ALWAYS_INLINE vf32 exact_pick(const float *from, const int32_t *at)
@@ -128,6 +148,35 @@ static ALWAYS_INLINE vmask exact_inside(const exact_lanes *at, const float *cast
     return v_mand(lanes, v_mand(exact_spans(a), exact_spans(b)));
 }
 
+/* R194: the lanes whose mesh the caster belongs to. */
+static ALWAYS_INLINE vmask exact_own(const exact_lanes *at, uint32_t number)
+{
+    const void *mesh = at->index->mesh_of(at->index, number);
+    int32_t surface[V_LANES], own[V_LANES];
+    v_storei(surface, at->surface);
+    for (int lane = 0; lane < V_LANES; lane++)
+        own[lane] = at->receivers->mesh[surface[lane]] == mesh;
+    return v_gti(v_loadi(own), v_seti(0));
+}
+
+/* R194: the lanes whose rays leave their own bodies through the caster, which looks to the light. */
+static vmask __attribute__((noinline)) exact_left(const exact_lanes *at, uint32_t number)
+{
+    const float *v = at->index->world[number];
+    float e[3], f[3];
+    vf32 m[3];
+    for (int c = 0; c < 3; c++) {
+        e[c] = v[3 + c] - v[c];
+        f[c] = v[6 + c] - v[c];
+    }
+    for (int c = 0; c < 3; c++) {
+        int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+        float own = e[c1] * f[c2] - e[c2] * f[c1];
+        m[c] = v_setf(at->index->is_mirrored[number] ? 0.0f - own : own);
+    }
+    return v_mand(v_gt(dot_three(m, at->towards), v_setf(0.0f)), exact_own(at, number));
+}
+
 /* R101: of these lanes, those where the hit is above the sample's plane and before the light. */
 static vmask exact_above(exact_lanes *at, uint32_t number, vmask lanes, vf32 weight[3])
 {
@@ -148,6 +197,8 @@ static vmask exact_above(exact_lanes *at, uint32_t number, vmask lanes, vf32 wei
     }
     lanes = v_mandnot(lanes, v_eq(det, zero));
     lanes = v_mand(lanes, v_gt(dot_three(weight, height), at->limit));
+    if (at->leaves && v_any(v_mand(lanes, at->turned)))
+        lanes = v_mandnot(lanes, v_mand(at->turned, exact_left(at, number)));
     return at->is_point ? v_mand(lanes, v_gt(dot_three(weight, z), zero)) : lanes;
 }
 
@@ -320,15 +371,70 @@ static vmask exact_point(exact_lanes *at, const e3d_caster_light *caster_light, 
     return hidden;
 }
 
+/* Of these lanes, those from which casters hide a light. */
+static ALWAYS_INLINE vmask exact_hidden(exact_lanes *at, const e3d_caster_light *caster_light, const e3d_light *light, vmask lanes)
+{
+    return e3d_light_traits_of(light->kind).has_position ? exact_point(at, caster_light, lanes)
+                                                         : exact_directional(at, caster_light, light, lanes);
+}
+
+/* R194: finds the lanes whose faces turn away from a light that their normals look to. */
+static void exact_find_turned(exact_lanes *at, const vf32 normal[3], vmask lanes)
+{
+    vf32 zero = v_setf(0.0f);
+    lanes = v_mand(lanes, v_gt(dot_three(normal, at->towards), zero));
+    exact_fetch_planes(at);
+    at->turned = v_mand(lanes, v_lt(dot_three(at->normal, normal), zero));
+    at->leaves = v_any(at->turned);
+}
+
+/* R194: moves samples onto the smooth bodies over them. */
+static void exact_move(exact_lanes *at, const e3d_batch *batch, int i)
+{
+    int32_t surface[V_LANES];
+    vf32 normal[3][3], rise[3], r = v_loadf(batch->r + i);
+    v_storei(surface, at->surface);
+    for (int k = 0; k < 3; k++) {
+        vf32 d[3];
+        for (int c = 0; c < 3; c++) {
+            normal[k][c] = exact_pick(at->receivers->corner_normal[c][k], surface);
+            d[c] = v_sub(exact_pick(at->receivers->surfaces->position[c][k], surface), at->position[c]);
+        }
+        vf32 share = v_min(v_mul(v_loadf(batch->weight[k] + i), r), v_setf(1.0f));
+        rise[k] = v_mul(share, v_max(dot_three(normal[k], d), v_setf(0.0f)));
+    }
+    for (int c = 0; c < 3; c++) {
+        const vf32 along[3] = {normal[0][c], normal[1][c], normal[2][c]};
+        at->position[c] = v_add(at->position[c], dot_three(rise, along));
+    }
+}
+
+/* R194: of these lanes, whose faces turn away, those from whose bodies casters hide a light. */
+static vmask __attribute__((noinline)) exact_from_bodies(const exact_lanes *from, const e3d_caster_light *caster_light, const e3d_light *light,
+                                                         const e3d_batch *batch, int i, vmask lanes)
+{
+    exact_lanes at = *from;
+    exact_move(&at, batch, i);
+    for (int c = 0; c < 3 && e3d_light_traits_of(light->kind).has_position; c++)
+        at.towards[c] = v_sub(v_setf(light->position[c]), at.position[c]);
+    at.leaves = 0;
+    return exact_hidden(&at, caster_light, light, lanes);
+}
+
 /* The lanes from which casters hide a light, among those where it would add light. */
 static ALWAYS_INLINE vmask exact_from(exact_lanes *at, const e3d_lighting *lighting, const e3d_caster_light *caster_light,
-                                      const vf32 normal[3])
+                                      const e3d_batch *batch, int i)
 {
+    vf32 normal[3], unmapped[3];
+    for (int c = 0; c < 3; c++) {
+        normal[c] = v_loadf(batch->normal[c] + i);
+        unmapped[c] = batch->unmapped_normal ? v_loadf(batch->unmapped_normal[c] + i) : normal[c];
+    }
     const e3d_light *light = &lighting->lights[caster_light->number];
     int has_position = e3d_light_traits_of(light->kind).has_position;
     vf32 l[3], attenuation = v_setf(1.0f), zero = v_setf(0.0f);
     vmask lanes = v_eqi(v_iota(), v_iota());
-    at->has_plane = 0;
+    at->has_plane = at->leaves = 0;
     for (int c = 0; c < 3; c++)
         l[c] = at->towards[c] = v_setf(light->to_light[c]);
     if (has_position) {
@@ -339,7 +445,13 @@ static ALWAYS_INLINE vmask exact_from(exact_lanes *at, const e3d_lighting *light
     lanes = v_mand(lanes, v_mand(v_gt(dot_three(normal, l), zero), v_gt(attenuation, zero)));
     if (!v_any(lanes))
         return lanes;
-    return has_position ? exact_point(at, caster_light, lanes) : exact_directional(at, caster_light, light, lanes);
+    if (at->receivers->is_smooth)
+        exact_find_turned(at, unmapped, lanes);
+    vmask hidden = exact_hidden(at, caster_light, light, lanes);
+    if (!at->leaves)
+        return hidden;
+    vmask left = v_mandnot(at->turned, hidden);
+    return v_any(left) ? v_mor(hidden, exact_from_bodies(at, caster_light, light, batch, i, left)) : hidden;
 }
 
 static void kernel_exact_shadows(e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *index,
@@ -348,14 +460,11 @@ static void kernel_exact_shadows(e3d_batch *batch, const e3d_lighting *lighting,
     for (int i = 0; i < batch->count; i += V_LANES) {
         exact_lanes at = {.index = index, .receivers = receivers, .surface = v_loadi(batch->surface + i)};
         vi32 hidden = v_seti(0);
-        vf32 normal[3];
-        for (int c = 0; c < 3; c++) {
+        for (int c = 0; c < 3; c++)
             at.position[c] = v_loadf(batch->position[c] + i);
-            normal[c] = v_loadf(batch->normal[c] + i);
-        }
         for (int n = 0; n < index->light_count; n++) {
             at.corners = index->lights[n].corners;
-            vmask lanes = exact_from(&at, lighting, &index->lights[n], normal);
+            vmask lanes = exact_from(&at, lighting, &index->lights[n], batch, i);
             hidden = v_seli(lanes, v_ori(hidden, v_seti((int32_t)(UINT32_C(1) << n))), hidden);
         }
         v_storei(batch->shadowed_lights + i, hidden);

@@ -64,6 +64,7 @@ def add_appearance(parser) -> None:
     )
     _add_line_shapes(group)
     _add_texture_filters(group)
+    _add_smoothing(group)
     group.add_argument(
         "--normals",
         choices=get_args(Normals),
@@ -115,6 +116,21 @@ def _add_texture_filters(group) -> None:
     )
 
 
+def _add_smoothing(group) -> None:
+    """Add what keeps details that are finer than pixels from flickering."""
+    group.add_argument(
+        "--specular-antialiasing",
+        action=argparse.BooleanOptionalAction,
+        help="physically based materials are rougher where normals differ within a pixel, so that "
+        "small highlights do not flicker; on by default",
+    )
+    group.add_argument(
+        "--alpha-to-coverage",
+        action=argparse.BooleanOptionalAction,
+        help="with multisampling, masks have edges as smooth as those of faces; on by default",
+    )
+
+
 def _add_line_shapes(group) -> None:
     """Add the shapes and the unit of lines and points."""
     group.add_argument(
@@ -152,7 +168,8 @@ def appearance_of(args: argparse.Namespace) -> dict:
     return {
         name: value
         for name, value in named.items()
-        if value is not None and value is not False  # an unset switch leaves the value to the scene
+        # A switch that isn't set leaves the value to the scene; one that is on can be set off.
+        if value is not None and (value is not False or DEFAULTS[name] is True)
     }
 
 

@@ -1,7 +1,7 @@
 /* Shade: the colour of a surface in the frame's mode, not yet encoded.
  * In: a surface, the frame's mode. Out: three floats.
  * Overdraw is not about surfaces: resolve.c.
- * Rules: R31 through light.c, R49 ... R57 through physical.c, R32, R44; R117, R121 through tone.c. */
+ * Rules: R31 through light.c, R49 ... R57 through physical.c, R32, R44; R117, R121 through tone.c, R212 through mirror.c. */
 #include "reference/surface.h"
 
 /* R32 */
@@ -88,6 +88,7 @@ void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
     find_color(frame, surface, out);
     if (is_fogged && frame->fog.kind != E3D_FOG_NONE)
         ref_add_fog(&frame->fog, surface->metric_depth, is_lit(frame, surface), out);
+    ref_add_mirror(frame, surface, out);
 }
 
 void ref_show(const e3d_frame *frame, const ref_surface *surface, float out[3])

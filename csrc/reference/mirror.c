@@ -1,0 +1,69 @@
+/* Mirrors: faces that show a picture of what their plane reflects.
+ * In: a surface, the frame's mirrors with their pictures. Out: the light that arrives from the mirror, and the colour with it.
+ * Rules: R210 (which mirror, and where), R212 (what shows); R211 through physical.c. */
+#include <math.h>
+
+#include "reference/arithmetic.h"
+#include "reference/surface.h"
+
+static int is_lit_face(const e3d_frame *frame, const ref_surface *surface)
+{
+    const ref_primitive *primitive = &surface->piece->primitive;
+    return frame->mode == E3D_MODE_LIT && primitive->kind == REF_FACE && !primitive->material->is_unlit;
+}
+
+static int holds_face(const e3d_mirror *mirror, const ref_surface *surface)
+{
+    const float *n = mirror->plane;
+    for (int k = 0; k < 3; k++) {
+        const float *p = surface->corner_position[k];
+        float height = ((n[0] * p[0] + n[1] * p[1]) + n[2] * p[2]) - n[3];
+        if (!(fabsf(height) <= mirror->slack))
+            return 0;
+    }
+    return 1;
+}
+
+static const e3d_mirror *mirror_of(const e3d_frame *frame, const ref_surface *surface)
+{
+    for (int32_t i = 0; i < frame->mirror_count; i++)
+        if (holds_face(&frame->mirrors[i], surface))
+            return &frame->mirrors[i];
+    return NULL;
+}
+
+/* R210 */
+void ref_find_mirror(const e3d_frame *frame, const ref_place *at, ref_surface *surface)
+{
+    const ref_primitive *primitive = &surface->piece->primitive;
+    const e3d_mirror *mirror = NULL;
+    surface->mirror = 0.0f;
+    if (is_lit_face(frame, surface) && primitive->material->mirror > 0.0f)
+        mirror = mirror_of(frame, surface);
+    if (!mirror)
+        return;
+    int32_t column = at->x - mirror->left, row = at->y - mirror->top;
+    if (column < 0 || row < 0 || column >= mirror->width || row >= mirror->height)
+        return;
+    surface->mirror = primitive->material->mirror;
+    for (int c = 0; c < 3; c++)
+        surface->mirrored_light[c] = mirror->radiance[3 * ((size_t)row * (size_t)mirror->width + (size_t)column) + (size_t)c];
+}
+
+/* R212 */
+void ref_add_mirror(const e3d_frame *frame, const ref_surface *surface, float color[3])
+{
+    float share[3], haze[3] = {0.0f, 0.0f, 0.0f};
+    if (!(surface->mirror > 0.0f))
+        return;
+    if (!surface->piece->primitive.material->is_physical) {
+        for (int c = 0; c < 3; c++)
+            color[c] = color[c] + (surface->mirrored_light[c] - color[c]) * surface->mirror;
+        return;
+    }
+    if (frame->fog.kind != E3D_FOG_NONE)
+        ref_add_fog(&frame->fog, surface->metric_depth, 1, haze);
+    ref_mirror_share(frame, surface, share);
+    for (int c = 0; c < 3; c++)
+        color[c] = color[c] + share[c] * (surface->mirrored_light[c] - haze[c]);
+}

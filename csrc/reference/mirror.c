@@ -1,6 +1,6 @@
 /* Mirrors: faces that show a picture of what their plane reflects.
- * In: a surface, the frame's mirrors with their pictures. Out: the light that arrives from the mirror, and the colour with it.
- * Rules: R210 (which mirror, and where), R212 (what shows); R211 through physical.c. */
+ * In: a surface, the frame's mirrors with their pictures. Out: the share of a mirror, and what its picture shows.
+ * Rules: R210. */
 #include <math.h>
 
 #include "reference/arithmetic.h"
@@ -48,22 +48,4 @@ void ref_find_mirror(const e3d_frame *frame, const ref_place *at, ref_surface *s
     surface->mirror = primitive->material->mirror;
     for (int c = 0; c < 3; c++)
         surface->mirrored_light[c] = mirror->radiance[3 * ((size_t)row * (size_t)mirror->width + (size_t)column) + (size_t)c];
-}
-
-/* R212 */
-void ref_add_mirror(const e3d_frame *frame, const ref_surface *surface, float color[3])
-{
-    float share[3], haze[3] = {0.0f, 0.0f, 0.0f};
-    if (!(surface->mirror > 0.0f))
-        return;
-    if (!surface->piece->primitive.material->is_physical) {
-        for (int c = 0; c < 3; c++)
-            color[c] = color[c] + (surface->mirrored_light[c] - color[c]) * surface->mirror;
-        return;
-    }
-    if (frame->fog.kind != E3D_FOG_NONE)
-        ref_add_fog(&frame->fog, surface->metric_depth, 1, haze);
-    ref_mirror_share(frame, surface, share);
-    for (int c = 0; c < 3; c++)
-        color[c] = color[c] + share[c] * (surface->mirrored_light[c] - haze[c]);
 }

@@ -108,7 +108,6 @@ void ref_mirror_share(const e3d_frame *frame, const ref_surface *surface, float 
 
 /* mirror.c */
 void ref_find_mirror(const e3d_frame *frame, const ref_place *at, ref_surface *surface);
-void ref_add_mirror(const e3d_frame *frame, const ref_surface *surface, float color[3]);
 
 /* iridescence.c */
 /* R140, from F0 of the surface below; R141: the F0 that gives the same by Schlick's term. */

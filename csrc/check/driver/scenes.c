@@ -453,10 +453,11 @@ static void add_ambient(scene *s, random_stream *r)
         s->frame.ambient_visibility = random_floats(s, r, s->frame.width * s->frame.height, 0.0f, 1.0f);
 }
 
-/* Random pictures for thick slices of space, which hold some of the faces. */
-static void add_mirrors(scene *s, random_stream *r)
+/* Random pictures for thick slices of space, which hold some of the faces. The stream goes on as if there were none. */
+static void add_mirrors(scene *s, const random_stream *stream)
 {
     e3d_frame *frame = &s->frame;
+    random_stream own = *stream, *r = &own;
     int32_t axis = frame->samples_axis, count = random_once_in(r, 2) ? 1 + random_below(r, SCENE_MAX_MIRRORS) : 0;
     for (int k = 0; k < SCENE_MAX_MATERIALS && count; k++)
         s->materials[k].mirror = random_once_in(r, 6) ? hostile_float(r) : random_float(r, -0.3f, 1.0f);

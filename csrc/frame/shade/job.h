@@ -5,7 +5,6 @@
 
 #include "base/grow.h"
 #include "e3d.h"
-#include "kernels/types/mirrors.h"
 #include "kernels/types/texture_slots.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"

@@ -5,6 +5,10 @@
 
 #include "base/limits.h"
 #include "kernels/kernels.h"
+#include "kernels/types/samples.h"
+#include "kernels/types/shading.h"
+#include "frame/pass/plan.h"
+#include "frame/pass/view.h"
 #include "frame/shade/mirrors.h"
 #include "frame/shade/texture_slots.h"
 

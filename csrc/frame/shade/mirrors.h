@@ -1,6 +1,8 @@
 /* Faces in mirrors show a picture of what these reflect (R210-R212). */
 #pragma once
 
+#include "e3d.h"
+#include "frame/pass/prepared.h"
 #include "frame/shade/job.h"
 
 /* Whether faces of a material show mirrors. */

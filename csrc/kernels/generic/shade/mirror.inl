@@ -4,7 +4,6 @@
 #include "base/always_inline.h"
 #include "base/limits.h"
 #include "e3d.h"
-#include "kernels/types/mirrors.h"
 #include "kernels/types/texture_slots.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/shade/texture_slots.inl"

@@ -1,6 +1,6 @@
 /* Mirrors: faces that show a picture of what their plane reflects.
  * In: a surface, the frame's mirrors with their pictures. Out: the share of a mirror, and what its picture shows.
- * Rules: R210. */
+ * Rules: R210, R213 (means of multisampled pictures). */
 #include <math.h>
 
 #include "reference/arithmetic.h"
@@ -32,6 +32,15 @@ static const e3d_mirror *mirror_of(const e3d_frame *frame, const ref_surface *su
     return NULL;
 }
 
+/* R213: what a picture shows at a column and a row of the viewport. */
+static void find_light(const e3d_mirror *mirror, int32_t column, int32_t row, float out[3])
+{
+    size_t scale = (size_t)mirror->scale, pitch = 3 * scale * (size_t)mirror->width;
+    const float *upper = mirror->radiance + scale * (size_t)row * pitch + 3 * scale * (size_t)column, *lower = upper + pitch;
+    for (int c = 0; c < 3; c++)
+        out[c] = scale == 1 ? upper[c] : ((upper[c] + upper[3 + c]) + (lower[c] + lower[3 + c])) * 0.25f;
+}
+
 /* R210 */
 void ref_find_mirror(const e3d_frame *frame, const ref_place *at, ref_surface *surface)
 {
@@ -46,6 +55,5 @@ void ref_find_mirror(const e3d_frame *frame, const ref_place *at, ref_surface *s
     if (column < 0 || row < 0 || column >= mirror->width || row >= mirror->height)
         return;
     surface->mirror = primitive->material->mirror;
-    for (int c = 0; c < 3; c++)
-        surface->mirrored_light[c] = mirror->radiance[3 * ((size_t)row * (size_t)mirror->width + (size_t)column) + (size_t)c];
+    find_light(mirror, column, row, surface->mirrored_light);
 }

@@ -225,11 +225,12 @@ cdef int32_t set_mirrors(e3d_mirror *out, list mirrors) except -1:
     cdef const float[:, :, ::1] radiance
     cdef int32_t count = 0
     require(len(mirrors) <= E3D_MAX_MIRRORS, "too many mirrors")
-    for plane, slack, left, top, radiance in mirrors:
+    for plane, slack, left, top, scale, radiance in mirrors:
         require(radiance.shape[2] == 3 and radiance.shape[0] > 0 and radiance.shape[1] > 0, "radiance must be (rows, columns, 3)")
+        require(radiance.shape[0] % scale == 0 and radiance.shape[1] % scale == 0, "a sample has all of its pixels")
         copy_vector(out[count].plane, plane, 4)
-        out[count].slack, out[count].left, out[count].top = slack, left, top
-        out[count].width, out[count].height = <int32_t>radiance.shape[1], <int32_t>radiance.shape[0]
+        out[count].slack, out[count].left, out[count].top, out[count].scale = slack, left, top, scale
+        out[count].width, out[count].height = <int32_t>radiance.shape[1] // scale, <int32_t>radiance.shape[0] // scale
         out[count].radiance = &radiance[0, 0, 0]
         count += 1
     return count
@@ -384,7 +385,7 @@ cdef class NativeRenderer:
         If a signal handler raises meanwhile, its exception is raised here and the targets are
         partly written. Where an environment is the background, `rays` has three rows: e3d_backdrop's.
         `ambient_visibility`: (height, width), of each pixel. `mirrors`: of each its plane (four numbers), slack, left,
-        top, and radiance (rows, columns, 3), as e3d_mirror has them.
+        top, scale, and radiance (rows, columns, 3), as e3d_mirror has them.
         """
         cdef e3d_frame frame
         cdef e3d_mirror reflecting[E3D_MAX_MIRRORS]

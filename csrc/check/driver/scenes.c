@@ -473,7 +473,8 @@ static void add_mirrors(scene *s, const random_stream *stream)
         mirror->height = whole ? frame->height * axis : random_below(r, 40);
         mirror->left = whole ? 0 : random_below(r, 40) - 20;
         mirror->top = whole ? 0 : random_below(r, 40) - 20;
-        mirror->radiance = random_pixels(s, r, 3 * mirror->width * mirror->height);
+        mirror->scale = 1 + random_below(r, 2);
+        mirror->radiance = random_pixels(s, r, 3 * mirror->width * mirror->height * mirror->scale * mirror->scale);
     }
     frame->mirrors = s->mirrors;
     frame->mirror_count = count;

@@ -38,28 +38,31 @@ static const e3d_mirror *mirror_of(const e3d_frame *frame, const e3d_surfaces *s
     return NULL;
 }
 
-/* What a mirror shows at a sample of the viewport; NULL where its picture doesn't reach. */
-static const float *light_at(const e3d_mirror *mirror, int32_t x, int32_t y)
+/* Finds what a mirror shows at a sample of the viewport; 0 where its picture doesn't reach. */
+static int find_light(const e3d_mirror *mirror, int32_t x, int32_t y, float out[3])
 {
     int32_t column = x - mirror->left, row = y - mirror->top;
     if (column < 0 || row < 0 || column >= mirror->width || row >= mirror->height)
-        return NULL;
-    return mirror->radiance + 3 * ((size_t)row * (size_t)mirror->width + (size_t)column);
+        return 0;
+    size_t scale = (size_t)mirror->scale, pitch = 3 * scale * (size_t)mirror->width;
+    const float *upper = mirror->radiance + scale * (size_t)row * pitch + 3 * scale * (size_t)column, *lower = upper + pitch;
+    for (int k = 0; k < 3; k++)
+        out[k] = scale == 1 ? upper[k] : ((upper[k] + upper[3 + k]) + (lower[k] + lower[3 + k])) * 0.25f;
+    return 1;
 }
 
 static void set_sample(e3d_mirror_batch *out, int i, float share, const float light[3])
 {
-    static const float NOTHING[3];
-    out->share[i] = light ? share : 0.0f;
-    out->rest[i] = 1.0f - out->share[i];
+    out->share[i] = share;
+    out->rest[i] = 1.0f - share;
     for (int k = 0; k < 3; k++)
-        out->light[k][i] = (light ? light : NOTHING)[k];
+        out->light[k][i] = light[k];
 }
 
 /* The length of the batch in whole vectors; beyond its end the last sample is repeated. */
 static int padded(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) / E3D_PAD * E3D_PAD; }
 
-static void find_light(const e3d_steps *s)
+static void find_batch(const e3d_steps *s)
 {
     e3d_shade_memory *memory = s->out->memory;
     const e3d_batch *batch = &memory->batch;
@@ -69,13 +72,15 @@ static void find_light(const e3d_steps *s)
         int32_t x = batch->sample[i] & (E3D_TILE - 1), y = batch->sample[i] >> E3D_TILE_SHIFT;
         if (!i || batch->surface[i] != batch->surface[i - 1])
             mirror = mirror_of(s->pass->frame, &memory->surfaces, batch->surface[i]);
-        set_sample(&memory->mirrors, i, s->bucket->material->mirror, mirror ? light_at(mirror, tile->x + x, tile->y + y) : NULL);
+        float light[3] = {0.0f, 0.0f, 0.0f};
+        int shows = mirror && find_light(mirror, tile->x + x, tile->y + y, light);
+        set_sample(&memory->mirrors, i, shows ? s->bucket->material->mirror : 0.0f, light);
     }
 }
 
 void e3d_find_mirrors(const e3d_steps *s)
 {
-    find_light(s);
+    find_batch(s);
     if (s->bucket->material->is_physical)
         e3d_share_mirrors(s->pass, s->bucket, s->out->memory);
 }

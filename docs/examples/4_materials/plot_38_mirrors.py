@@ -2,9 +2,9 @@
 Mirrors
 =======
 
-``mirror`` makes flat faces a mirror: each plane of mirrors in view is drawn as one more view of the
-scene, sharp and exact, mirrors in mirrors included. On the wall hangs a plain mirror; the polished
-floor is a physical material, which reflects more the flatter one looks along it.
+This hangs a mirror on a wall above a polished floor. ``mirror`` makes flat faces reflect the scene,
+sharply and exactly, mirrors in mirrors included. The floor is a physical material, which reflects
+more the flatter one looks along it.
 """
 
 import math

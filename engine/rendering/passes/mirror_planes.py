@@ -7,6 +7,7 @@ each with the rectangles around its faces (docs/exactness, R214).
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -175,7 +176,7 @@ class MirrorFinder:
             )
         return planes[:MOST_MIRRORS]
 
-    def _list(self, objects: list[object]) -> None:
+    def _list(self, objects: Sequence[object]) -> None:
         self._flat = {}
         for number, obj in enumerate(objects):
             mesh = obj if isinstance(obj, Mesh) else getattr(obj, "mesh", None)

@@ -18,7 +18,6 @@ from .mirror_planes import MirrorPlane, slack_of
 
 _STEP = 64  # samples: parts of pictures begin and end at multiples
 _NEAREST = 2.0**-30  # of the greatest w: nearer corners are beside the picture
-_EDGES = ((0, 1), (1, 2), (2, 3), (3, 0))
 
 
 class Part(NamedTuple):
@@ -32,24 +31,36 @@ class Part(NamedTuple):
 
 def part_of(plane: MirrorPlane, view: View, size: tuple[int, int]) -> Part | None:
     """Return the part of a picture's samples, ``size``, that may show a mirror; None if none."""
-    rectangles = np.stack(plane.rectangles)
-    x, y, w = (linalg.dot(rectangles, row[:3]) + row[3] for row in view.clip_from_world[[0, 1, 3]])
-    least = _NEAREST * float(np.abs(w).max())
-    across, down = [], []
-    for a, b in _EDGES:
-        with np.errstate(all="ignore"):
-            share = np.clip((least - w[:, a]) / (w[:, b] - w[:, a]), 0.0, 1.0)
-            at = np.where(np.isfinite(share), share, 0.0)
-            middle = [p[:, a] + (p[:, b] - p[:, a]) * at for p in (x, y)]
-        crosses = (w[:, a] < least) != (w[:, b] < least)
-        across += [middle[0][crosses] / least, (x[:, a] / w[:, a])[w[:, a] >= least]]
-        down += [middle[1][crosses] / least, (y[:, a] / w[:, a])[w[:, a] >= least]]
-    columns, rows = np.concatenate(across), np.concatenate(down)
+    corners = np.stack(plane.rectangles)
+    x, y, z, w = (linalg.dot(corners, row[:3]) + row[3] for row in view.clip_from_world)
+    if (z + w < 0.0).all():  # as the mirror that the view is of
+        return None
+    columns, rows = _outline(np.stack([x, y, w]))
     if not len(columns):
         return None
     left, right = _steps((columns + 1.0) * 0.5 * size[0], size[0])
     top, bottom = _steps((1.0 - rows) * 0.5 * size[1], size[1])
     return Part(left, top, right - left, bottom - top) if left < right and top < bottom else None
+
+
+def _outline(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the ends of rectangles' sides in a picture, as far as they are before the eye.
+
+    Parameters
+    ----------
+    corners : (3, N, 4) float64
+        x, y and w of the rectangles' corners in clip space.
+    """
+    others = np.roll(corners, -1, axis=2)
+    least = _NEAREST * max(float(np.abs(corners[2]).max()), 2.0**-100)
+    starts, ends = corners[2] >= least, others[2] >= least
+    with np.errstate(all="ignore"):
+        crossing = np.clip((least - corners[2]) / (others[2] - corners[2]), 0.0, 1.0)
+    points = []
+    for share in (np.where(starts, 0.0, crossing), np.where(ends, 1.0, crossing)):
+        at = (corners + (others - corners) * share)[:, starts | ends]
+        points.append(at[:2] / np.maximum(at[2], least))
+    return np.concatenate(points, axis=1)
 
 
 def _steps(places: NDArray[np.float64], size: int) -> tuple[int, int]:
@@ -79,6 +90,9 @@ class Reflection(View):
 
     Attributes
     ----------
+    part, scale
+    size : (int, int)
+        Pixels of the reflection.
     is_usable : bool
         Whether anything can be seen.
     """
@@ -95,7 +109,9 @@ class Reflection(View):
         reflect = _reflection(plane)
         camera = view.camera
         crop = _crop(part, size)
-        self._lens = (camera, camera.version, part.width * scale, part.height * scale)
+        self.part, self.scale = part, scale
+        self.size = part.width * scale, part.height * scale
+        self._lens = (camera, camera.version, *self.size)
         self._pose_bytes = b""
         self.camera = camera
         self.projection = linalg.multiply(crop, view.projection)

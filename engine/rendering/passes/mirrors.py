@@ -10,9 +10,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.image_size import MAX_SIZE
 from ..options import RenderOptions, as_mirrored, shows_light
 from .mirror_backgrounds import MirrorBackgrounds
-from .mirror_planes import MirrorFinder, slack_of
+from .mirror_planes import MirrorFinder, MirrorPlane, slack_of
 from .mirror_views import Reflection, part_of
 from .protocol import MirrorPainter, Pass, Picture, Sight, Tools
 
@@ -37,48 +38,40 @@ class Mirrors(Pass):
     def draw(self, picture: Picture) -> None:
         if not self.tools.draw_list.has_mirrors:
             return
-        axis, multiple = self.tools.samples
-        scale = _FINER if multiple else 1
-        size = picture.size[0] * axis, picture.size[1] * axis
-        options = as_mirrored(picture.options, axis * scale)
-        bounds = picture.scene.bounds
+        scene, bounds = picture.scene, picture.scene.bounds
         slack = slack_of(bounds)
-        beyond = self._backgrounds.beyond(picture.scene, picture.options)
         for plane in self._finder.find(picture, slack):
-            part = part_of(plane, picture.view, size)
-            if part is None:
+            view = self._view(picture, plane, bounds)
+            if view is None:
                 continue
-            view = Reflection(picture.view, plane, part, size, scale, bounds)
-            if not view.is_usable:
-                continue
-            sight = Sight(
-                view,
-                (part.width * scale, part.height * scale),
-                picture.sight.rows * axis * scale,
-                picture.sight.headlight,
-                beyond=beyond,
-            )
-            radiance = self._painter(len(picture.mirrors)).radiance(picture.scene, options, sight)
-            picture.mirrors.append(
-                (
-                    (*plane.normal.tolist(), plane.offset),
-                    slack,
-                    part.left,
-                    part.top,
-                    _resolved(radiance) if multiple else radiance,
-                )
-            )
+            fineness = self.tools.samples[0] * view.scale
+            options = as_mirrored(picture.options, fineness)
+            sight = self._sight(picture, view, fineness)
+            radiance = self._painter(len(picture.mirrors)).radiance(scene, options, sight)
+            numbers = (*plane.normal.tolist(), plane.offset)
+            place = view.part.left, view.part.top, view.scale
+            picture.mirrors.append((numbers, slack, *place, radiance))
+
+    def _view(
+        self, picture: Picture, plane: MirrorPlane, bounds: NDArray[np.float64]
+    ) -> Reflection | None:
+        """Return the view of what a mirror shows; None if it shows nothing."""
+        axis, multiple = self.tools.samples
+        samples = picture.size[0] * axis, picture.size[1] * axis
+        part = part_of(plane, picture.view, samples)
+        if part is None or max(part.width, part.height) > MAX_SIZE:
+            return None
+        is_small = _FINER * max(part.width, part.height) <= MAX_SIZE
+        scale = _FINER if multiple and is_small else 1
+        view = Reflection(picture.view, plane, part, samples, scale, bounds)
+        return view if view.is_usable else None
+
+    def _sight(self, picture: Picture, view: Reflection, fineness: int) -> Sight:
+        beyond = self._backgrounds.beyond(picture.scene, picture.options)
+        rows, headlight = picture.sight.rows * fineness, picture.sight.headlight
+        return Sight(view, view.size, rows, headlight, beyond=beyond)
 
     def _painter(self, number: int) -> MirrorPainter:
         if number == len(self._painters):
             self._painters.append(self.tools.another())
         return self._painters[number]
-
-
-def _resolved(radiance: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the mean of the samples of each pixel."""
-    upper, lower = radiance[0::2], radiance[1::2]
-    total = upper[:, 0::2] + upper[:, 1::2]
-    total += lower[:, 0::2] + lower[:, 1::2]
-    total *= np.float32(0.25)
-    return total

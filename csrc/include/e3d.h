@@ -19,6 +19,7 @@
 #include "e3d_light.h"
 #include "e3d_material.h"
 #include "e3d_mesh.h"
+#include "e3d_mirror.h"
 #include "e3d_renderer.h"
 #include "e3d_status.h"
 #include "e3d_targets.h"

@@ -9,6 +9,7 @@
 #include "e3d_environment.h"
 #include "e3d_light.h"
 #include "e3d_material.h"
+#include "e3d_mirror.h"
 #include "e3d_tone.h"
 
 #ifdef __cplusplus
@@ -138,6 +139,8 @@ typedef struct e3d_frame {
     e3d_ambient_light ambient_light;      /* beside ambient */
     /* (height, width) or NULL: the share of ambient light that reaches the opaque surfaces in a pixel (R129) */
     const float *ambient_visibility;
+    const e3d_mirror *mirrors; /* what faces of materials with a mirror show */
+    int32_t mirror_count;      /* at most E3D_MAX_MIRRORS */
 } e3d_frame;
 
 /* These set a member by its name: one that options decide, or one that a scene's surroundings decide. They return 0 if no member

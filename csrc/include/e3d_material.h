@@ -73,6 +73,7 @@ typedef struct e3d_material {
     int32_t is_unlit;            /* shows its colour in mode lit as well */
     e3d_alpha_mode alpha_mode;
     float alpha_cutoff;          /* of E3D_ALPHA_MASK */
+    float mirror;                /* 0 .. 1: how much of a perfect mirror flat faces are */
     int32_t is_physical;         /* 0: `physical` is not read */
     e3d_physical physical;
 } e3d_material;

@@ -125,6 +125,11 @@ E3D_KERNEL(void, light, (e3d_batch *batch, const e3d_lighting *lighting, float s
 E3D_KERNEL(void, combine, (e3d_batch *batch, const float specular[3], const float emissive[3], float exposure))
 /* Finds the colours of a physically based material; on entry, color is its base colour. */
 E3D_KERNEL(void, physical, (e3d_batch *batch, const e3d_brdf *brdf, const e3d_lighting *lighting, e3d_texture_batch *textures))
+/* Finds how much of a mirror's light a physically based material reflects; color is its base colour. */
+E3D_KERNEL(void, mirror_shares, (const e3d_batch *batch, const e3d_texture_batch *textures, const e3d_brdf *brdf, const e3d_lighting
+           *lighting, e3d_mirror_batch *out))
+/* Lays the light of mirrors over colours. */
+E3D_KERNEL(void, mirror_light, (e3d_batch *batch, int is_physical, const e3d_mirror_batch *mirrors))
 /* Finds an environment's radiance along directions, at a level each. */
 E3D_KERNEL(void, environment, (const e3d_environment_light *light, const float *const direction[3], const float *level, int count, float
            *const color[3]))

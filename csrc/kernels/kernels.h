@@ -18,7 +18,6 @@
 #include "kernels/types/msaa_mixed.h"
 #include "kernels/types/records.h"
 #include "kernels/types/samples.h"
-#include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/texture_slots.h"
 #include "kernels/types/ui.h"

@@ -2,7 +2,7 @@
  * In: a surface with the values of its textures; the frame's lights, ambient light and environment. Out: its linear colour,
  * not yet clamped.
  * Rules: R49 (the material at a sample), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
- * R56 and R57 (sums).
+ * R56 and R57 (sums), R211 (mirrors).
  * Sources: glTF 2.0, appendix B; Walter et al. 2007 (GGX); Heitz 2014 (Smith); Schlick 1994; Estevez and Kulla 2017 (sheen);
  * Fdez-Aguera 2019 (multiple scattering). */
 #include "reference/arithmetic.h"
@@ -236,6 +236,8 @@ static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sa
         mirror.facing = ref_dot3(mirror.normal, at->view);
     }
     find_radiance(frame, &mirror, at->view, radiance);
+    for (int c = 0; c < 3 && s->mirror > 0.0f; c++) /* R211 */
+        radiance[c] = radiance[c] * (1.0f - s->mirror);
     find_f0(s, at->base.nv, other_f0, metal_f0);
     for (int c = 0; c < 3; c++) {
         float albedo = s->albedo[c];
@@ -264,10 +266,16 @@ static void add_sheen(const ref_surface *s, const sample *at, const float irradi
         color[c] = color[c] * (1.0f - most * e) + p->sheen[c] * (lights->fuzz[c] + (irradiance[c] * e) * occlusion_of(s));
 }
 
-/* R52 and R57 */
+/* R52 */
+static float coat_share(const ref_surface *s, const lobe *coat)
+{
+    return s->physical.coat * (0.04f + 0.96f * fifth_power(1.0f - ref_min(coat->nv, 1.0f)));
+}
+
+/* R57 */
 static void add_coat(const e3d_frame *frame, const ref_surface *s, const sample *at, const sums *lights, float color[3])
 {
-    float radiance[3], w5 = fifth_power(1.0f - ref_min(at->coat.nv, 1.0f)), fc = s->physical.coat * (0.04f + 0.96f * w5);
+    float radiance[3], fc = coat_share(s, &at->coat);
     find_radiance(frame, &at->coat, at->view, radiance);
     for (int c = 0; c < 3; c++)
         color[c] = color[c] * (1.0f - fc) + fc * (lights->coat[c] + radiance[c] * occlusion_of(s));
@@ -295,6 +303,20 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
         out[c] = out[c] * frame->exposure;
 }
 
+/* ---- mirrors ---- */
+
+/* R211 */
+void ref_mirror_share(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    const sample at = find_sample(frame, surface);
+    float w5 = fifth_power(1.0f - ref_min(at.base.nv, 1.0f));
+    for (int c = 0; c < 3; c++) {
+        out[c] = surface->mirror * (at.f0[c] + (at.f90 - at.f0[c]) * w5);
+        if (surface->piece->primitive.material->physical.clearcoat != 0.0f)
+            out[c] = out[c] * (1.0f - coat_share(surface, &at.coat));
+    }
+}
+
 /* ---- what passes (R134) ---- */
 
 void ref_light_behind(const ref_surface *s, const float view[3], float out[3])
@@ -305,7 +327,7 @@ void ref_light_behind(const ref_surface *s, const float view[3], float out[3])
     float a = ref_albedo(E3D_DFG_A, base.roughness, base.nv), b = ref_albedo(E3D_DFG_B, base.roughness, base.nv), rest = 1.0f - (a + b);
     float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f), e = ref_albedo(E3D_DFG_SHEEN, rough, base.nv);
     float most = ref_max(ref_max(p->sheen[0], p->sheen[1]), p->sheen[2]);
-    float fc = p->coat * (0.04f + 0.96f * fifth_power(1.0f - ref_min(coat.nv, 1.0f))), other_f0[3], metal_f0[3];
+    float fc = coat_share(s, &coat), other_f0[3], metal_f0[3];
     find_f0(s, base.nv, other_f0, metal_f0);
     for (int c = 0; c < 3; c++) {
         float albedo = s->albedo[c];

@@ -1,7 +1,7 @@
 /* Shade: the colour of a surface in the frame's mode, not yet encoded.
  * In: a surface, the frame's mode. Out: three floats.
  * Overdraw is not about surfaces: resolve.c.
- * Rules: R31 through light.c, R49 ... R57 through physical.c, R32, R44; R117, R121 through tone.c. */
+ * Rules: R31 through light.c, R49 ... R57, R211 through physical.c, R32, R44, R212; R117, R121 through tone.c. */
 #include "reference/surface.h"
 
 /* R32 */
@@ -82,12 +82,31 @@ static void find_color(const e3d_frame *frame, const ref_surface *surface, float
         out[c] = surface->albedo[c];
 }
 
+/* R212 */
+static void add_mirror(const e3d_frame *frame, const ref_surface *surface, float color[3])
+{
+    float share[3], haze[3] = {0.0f, 0.0f, 0.0f};
+    if (!(surface->mirror > 0.0f))
+        return;
+    if (!surface->piece->primitive.material->is_physical) {
+        for (int c = 0; c < 3; c++)
+            color[c] = color[c] + (surface->mirrored_light[c] - color[c]) * surface->mirror;
+        return;
+    }
+    if (frame->fog.kind != E3D_FOG_NONE)
+        ref_add_fog(&frame->fog, surface->metric_depth, 1, haze);
+    ref_mirror_share(frame, surface, share);
+    for (int c = 0; c < 3; c++)
+        color[c] = color[c] + share[c] * (surface->mirrored_light[c] - haze[c]);
+}
+
 void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
     int is_fogged = frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT;
     find_color(frame, surface, out);
     if (is_fogged && frame->fog.kind != E3D_FOG_NONE)
         ref_add_fog(&frame->fog, surface->metric_depth, is_lit(frame, surface), out);
+    add_mirror(frame, surface, out);
 }
 
 void ref_show(const e3d_frame *frame, const ref_surface *surface, float out[3])

@@ -2,7 +2,7 @@
  * In: a piece and a sample that it covers; everything is computed again from the mesh. Out: ref_surface, in world and view
  * space.
  * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv). texture_slots.c adds
- * what textures say. */
+ * what textures say, mirror.c what mirrors show. */
 #include "data/srgb_tables.h"
 #include "reference/surface.h"
 
@@ -216,6 +216,7 @@ void ref_surface_beside(const ref_scene *scene, const ref_piece *piece, const re
     find_albedo(scene, out);
     ref_find_textures(scene, out);
     out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
+    ref_find_mirror(scene->frame, at, out);
     out->visibility = 1.0f; /* resolve.c sets it for surfaces that aren't blended */
 }
 

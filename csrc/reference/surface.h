@@ -49,6 +49,7 @@ typedef struct ref_surface {
     float emissive[3];
     ref_physical physical; /* used if the face's material is physical */
     float visibility;      /* R129: the share of ambient light that arrives */
+    float mirror, mirrored_light[3]; /* R210: the share of a mirror, 0: none; what its picture shows there */
 } ref_surface;
 
 /* R20 for three values. */
@@ -112,6 +113,12 @@ float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], floa
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 /* R134: the share of light from behind that the surface leaves, before absorption. */
 void ref_light_behind(const ref_surface *surface, const float view[3], float out[3]);
+
+/* R211: the share of a mirror's light that the surface reflects. */
+void ref_mirror_share(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+
+/* mirror.c */
+void ref_find_mirror(const e3d_frame *frame, const ref_place *at, ref_surface *surface);
 
 /* iridescence.c */
 /* R140, from F0 of the surface below; R141: the F0 that gives the same by Schlick's term. */

@@ -270,6 +270,45 @@ def walls() -> np.ndarray:
     return sheet(tiles, 5)
 
 
+def surface(size, **values) -> e3d.Mesh:
+    mesh = e3d.plane(size) if len(size) == 2 else e3d.box(size)
+    mesh.materials = [e3d.Material(**values)]
+    return mesh
+
+
+def furnished(**floor) -> e3d.Scene:
+    """A teapot and other things before a wall, in the sun."""
+    scene = e3d.Scene(background=(150, 175, 205), ambient=e3d.linear(0.35, 0.37, 0.42))
+    scene.add(surface((6, 5), **floor), translation=(0, 0, 0.6))
+    scene.add(surface((6, 3, 0.1), color=(205, 190, 170)), translation=(0, 1.5, -1.56))
+    stand(scene, "teapot.obj", at=(-0.8, -0.1), height=0.7, turn=0.6)
+    gold = e3d.icosphere(0.3, 5)
+    gold.materials = [e3d.Material(color=(255, 200, 90), metallic=1.0, roughness=0.35)]
+    scene.add(gold, translation=(0.3, 0.3, 0.5))
+    scene.add(surface((0.5, 0.5, 0.5), color=(60, 110, 190)), translation=(1.1, 0.25, -0.3))
+    sun = e3d.DirectionalLight((-0.5, -1.0, -0.7), e3d.linear(1.0, 0.95, 0.85), 2.2)
+    sun.shadow = "exact"
+    scene.add(sun)
+    return scene
+
+
+def mirrors() -> np.ndarray:
+    """A mirror on a wall, and a floor that is polished."""
+    camera = e3d.PerspectiveCamera(0.62), e3d.look_at((-1.2, 1.5, 5.2), (0.1, 0.75, 0.0))
+    hung = furnished(color=(150, 120, 95))
+    frame = surface((2.5, 1.7, 0.05), color=(95, 60, 35), metallic=0.0, roughness=0.5)
+    hung.add(frame, translation=(0.3, 1.0, -1.48))
+    pane = surface((2.3, 1.5), color=(235, 240, 240), mirror=0.95)
+    hung.add(pane, pose=linalg.translation((0.3, 1.0, -1.45)) @ linalg.rotation_x(math.pi / 2))
+    floor = {"color": (60, 45, 40), "metallic": 0.0, "roughness": 0.2, "ior": 2.0}
+    polished = furnished(**floor, mirror=1.0)
+    tiles = [
+        (name, draw(scene, camera, (470, 320), ambient_occlusion=True))
+        for name, scene in (("mirror=0.95", hung), ("a physical floor, mirror=1", polished))
+    ]
+    return sheet(tiles, 2)
+
+
 def viewer() -> np.ndarray:
     """What the viewer's window shows: a model with its edges, grid, axes, what the file holds."""
     settings = Settings(
@@ -351,6 +390,7 @@ PICTURES = {
     "scenes": scenes,
     "materials": materials,
     "walls": walls,
+    "mirrors": mirrors,
     "viewer": viewer,
     "city": city,
     "impostors": impostors,
@@ -359,7 +399,7 @@ PICTURES = {
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", "sheet", "city", "impostors", *gallery.programs())
+SMALL = ("models", "mirrors", "sheet", "city", "impostors", *gallery.programs())
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 

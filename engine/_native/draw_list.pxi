@@ -382,6 +382,7 @@ cdef class NativeDrawList:
         material.alpha = numbers["alpha"]
         material.alpha_mode = <e3d_alpha_mode><int>numbers["alpha_mode"]
         material.alpha_cutoff = numbers["alpha_cutoff"]
+        material.mirror = numbers["mirror"]
         if physical is not None:
             material.is_physical = True
             material.physical = physical

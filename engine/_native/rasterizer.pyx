@@ -221,6 +221,21 @@ cdef int set_fog(e3d_fog *fog, tuple values) except -1:
     return 0
 
 
+cdef int32_t set_mirrors(e3d_mirror *out, list mirrors) except -1:
+    cdef const float[:, :, ::1] radiance
+    cdef int32_t count = 0
+    require(len(mirrors) <= E3D_MAX_MIRRORS, "too many mirrors")
+    for plane, slack, left, top, scale, radiance in mirrors:
+        require(radiance.shape[2] == 3 and radiance.shape[0] > 0 and radiance.shape[1] > 0, "radiance must be (rows, columns, 3)")
+        require(radiance.shape[0] % scale == 0 and radiance.shape[1] % scale == 0, "a sample has all of its pixels")
+        copy_vector(out[count].plane, plane, 4)
+        out[count].slack, out[count].left, out[count].top, out[count].scale = slack, left, top, scale
+        out[count].width, out[count].height = <int32_t>radiance.shape[1] // scale, <int32_t>radiance.shape[0] // scale
+        out[count].radiance = &radiance[0, 0, 0]
+        count += 1
+    return count
+
+
 cdef class NativeOptions:
     """How frames are drawn: all of a frame's settings but its size, its view and the scene."""
 
@@ -363,15 +378,18 @@ cdef class NativeRenderer:
         const double[:, ::1] frozen_clip_from_world=None,
         const float[:, ::1] rays=None,
         const float[:, ::1] ambient_visibility=None,
+        list mirrors=None,
     ) -> NativeStats:
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
         `number` tells the camera from others: the core remembers what each saw in its last frame.
         If a signal handler raises meanwhile, its exception is raised here and the targets are
         partly written. Where an environment is the background, `rays` has three rows: e3d_backdrop's.
-        `ambient_visibility`: (height, width), of each pixel.
+        `ambient_visibility`: (height, width), of each pixel. `mirrors`: of each its plane (four numbers), slack, left,
+        top, scale, and radiance (rows, columns, 3), as e3d_mirror has them.
         """
         cdef e3d_frame frame
+        cdef e3d_mirror reflecting[E3D_MAX_MIRRORS]
         cdef e3d_targets outputs
         cdef NativeStats drawn = NativeStats.__new__(NativeStats)
         frame = options.frame
@@ -393,6 +411,8 @@ cdef class NativeRenderer:
             require(ambient_visibility.shape[0] == height and ambient_visibility.shape[1] == width,
                     "ambient_visibility must be (height, width)")
             frame.ambient_visibility = &ambient_visibility[0, 0]
+        if mirrors is not None:
+            frame.mirrors, frame.mirror_count = reflecting, set_mirrors(reflecting, mirrors)
         frame.ambient_light = draw_list.ambient_light
         frame.depth_near = depth_near
         frame.depth_far = depth_far

@@ -63,6 +63,8 @@ _WITHOUT_COLOR = {
     "light_clamp": _NO_CLAMP,
     "exposure": 1.0,
 }
+# The backdrop of light that is not the scene's environment.
+_AS_IT_IS = {"backdrop.light.intensity": 1.0, "backdrop.level": 0.0}
 # Modes whose colours go through the sRGB encoder; the others give display values.
 _ENCODED_MODES = ("lit", "unlit")
 
@@ -80,6 +82,8 @@ class FrameOptions:
     options : RenderOptions
     height : int
         Of the picture, in pixels.
+    beyond : Environment, optional
+        Its light takes the place of a plain background.
 
     Attributes
     ----------
@@ -95,6 +99,7 @@ class FrameOptions:
         options: RenderOptions,
         threads: int,
         height: int,
+        beyond: Environment | None = None,
     ) -> None:
         self._options = options
         self._listings: dict[tuple[str, ...], Listing] = {}
@@ -103,6 +108,8 @@ class FrameOptions:
         environment = backdrop = None
         if isinstance(scene.background, Environment) and options.mode in _ENCODED_MODES:
             backdrop = native_environment(scene.background, threads)
+        elif beyond is not None:
+            backdrop = native_environment(beyond, threads)
         if scene.environment is not None and options.mode == "lit":
             environment = native_environment(scene.environment, threads)
         ambient = shading_color(scene.ambient, color_space)
@@ -118,6 +125,7 @@ class FrameOptions:
                 **self._numbers,
                 **_background(scene, color_space, convert),
                 **_environment(scene),
+                **(_AS_IT_IS if beyond is not None else {}),
                 "line_color": convert(cast(Color, options.line_color), color_space),
                 "encode_srgb": encoded,
                 "decode_srgb": color_space == "srgb",
@@ -258,12 +266,19 @@ class OptionsCache:
             _keep(self._named, key, (given, options))
         return options
 
-    def get(self, scene: AnyScene, options: RenderOptions, height: int) -> FrameOptions:
+    def get(
+        self,
+        scene: AnyScene,
+        options: RenderOptions,
+        height: int,
+        beyond: Environment | None = None,
+    ) -> FrameOptions:
         """Return the frame options for a scene's current state and a picture's height."""
-        seen = options, height, *_scene_values(scene)
+        seen = options, height, beyond, *_scene_values(scene)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
-            known = seen, FrameOptions(scene, self._color_space, options, self._threads, height)
+            how = self._color_space, options, self._threads, height, beyond
+            known = seen, FrameOptions(scene, *how)
             _keep(self._found, id(options), known)
         return known[1]
 

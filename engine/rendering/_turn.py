@@ -27,16 +27,10 @@ _FORKED = (
 
 
 class RendererTurn:
-    """The turns of one renderer.
+    """The turns of one renderer."""
 
-    Parameters
-    ----------
-    native : NativeRenderer
-        The renderer that a forked process must abandon.
-    """
-
-    def __init__(self, native: NativeRenderer) -> None:
-        self._native: NativeRenderer | None = native
+    def __init__(self) -> None:
+        self._natives: list[NativeRenderer] = []
         # reentrant, so that a nested call gets an error instead of a deadlock
         self._lock = threading.RLock()
         self._drawing = self._staging = self._forked = False
@@ -74,16 +68,21 @@ class RendererTurn:
         if self._forked:
             raise RendererBusyError(_FORKED)
 
+    def hold(self, native: NativeRenderer) -> None:
+        """Note a native renderer that draws in these turns: a forked process must abandon it."""
+        self._natives.append(native)
+
     def let_go(self) -> None:
-        """Free the native renderer, once the caller has dropped it too."""
-        self._native = None
+        """Free the native renderers, once the caller has dropped them too."""
+        self._natives.clear()
 
     def _fork(self) -> None:
         """Reset the turn in a forked process: the threads that held or awaited it are gone."""
         self._lock = threading.RLock()
-        if (self._drawing or self._staging) and self._native is not None:
+        if (self._drawing or self._staging) and self._natives:
             self._forked = True
-            self._native.abandon()
+            for native in self._natives:
+                native.abandon()
 
 
 _turns: weakref.WeakSet[RendererTurn] = weakref.WeakSet()

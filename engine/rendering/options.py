@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, get_args
 from .._native import rasterizer as _native
 from ..base.calls import Function, checks_types, hints_keywords, refuse_unknown
 from ..base.numbers import real, shown
-from ..base.validation import choose, flag, one_of, optional_positive
+from ..base.validation import choose, flag, is_one_of, one_of, optional_positive
 from ..choices import (
     ColorLike,
     Culling,
@@ -48,6 +48,7 @@ MAX_FRAME_BYTES = 1 << 30
 WHITE = (1.0, 1.0, 1.0)
 MAX_LINE = 256.0  # pixels: the widest line, the largest point
 _MAX_BLOOM = 100.0
+_MAX_DEPTH = 8
 SIZE_UNITS: tuple[SizeUnit, ...] = get_args(SizeUnit)
 _ROWS = 1000  # the picture height at which sizes in "picture" equal pixels
 
@@ -86,6 +87,12 @@ def _strength(value: float, what: str) -> float:
     if not 0 <= number <= _MAX_BLOOM:
         raise InvalidArgumentError(f"{what} must be in 0..{_MAX_BLOOM:g}, not {shown(value)}")
     return number
+
+
+def _depth(value: int, what: str) -> int:
+    if not is_one_of(value, range(_MAX_DEPTH + 1)):
+        raise InvalidArgumentError(f"{what} must be 0 to {_MAX_DEPTH}, not {value!r}")
+    return int(value)
 
 
 def _option(default: Any, check: Check, core: str = "", numbers: Numbers | None = None) -> Any:
@@ -127,6 +134,7 @@ class OptionKeywords(TypedDict, total=False):
     specular_antialiasing: bool
     ambient_occlusion: bool
     ambient_occlusion_radius: float | None
+    mirror_depth: int
 
 
 class RenderKeywords(OptionKeywords, total=False):
@@ -215,6 +223,10 @@ class RenderOptions:
     ambient_occlusion_radius : float, optional
         World units: occluders farther away are ignored. By default a fraction of the diagonal of
         the scene's box.
+    mirror_depth : int
+        In mode "lit": how many mirrors (`Material.mirror`) light may meet on its way, 0 to 8. Each
+        flat mirror in view takes a view of the scene of its own, and so does each mirror in it.
+        Beyond, mirrors look as without.
 
     Raises
     ------
@@ -244,6 +256,7 @@ class RenderOptions:
     specular_antialiasing: bool = _option(True, flag, "specular_antialiasing")
     ambient_occlusion: bool = _option(False, flag)
     ambient_occlusion_radius: float | None = _option(None, optional_positive)
+    mirror_depth: int = _option(2, _depth)
 
     def __post_init__(self) -> None:
         for one in fields(self):  # bypasses __setattr__, which refuses
@@ -324,6 +337,23 @@ def shows_options(function: Function) -> Function:
     ]
     vars(function)["__signature__"] = signature.replace(parameters=own + rows)
     return function
+
+
+@functools.lru_cache(16)
+def as_mirrored(options: RenderOptions, scale: int) -> RenderOptions:
+    """Return the options of what a mirror shows: the same object each time.
+
+    Parameters
+    ----------
+    options : RenderOptions
+        Those of the picture with the mirror.
+    scale : int
+        How many of the mirror's pixels are side by side in a pixel of that picture.
+    """
+    depth, wide = options.mirror_depth - 1, scale if options.size_unit == "pixels" else 1
+    sizes = (min(size * wide, MAX_LINE) for size in (options.line_width, options.point_size))
+    line, point = sizes
+    return replace(options, mirror_depth=depth, wireframe=None, line_width=line, point_size=point)
 
 
 @functools.lru_cache(16)

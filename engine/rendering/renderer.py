@@ -18,24 +18,16 @@ from ..errors import InvalidArgumentError, SceneChangedError
 from ..model.materials.colors import COLOR_SPACES
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import AnyScene, StagedScene
-from ._frame_memory import FrameMemory
-from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
+from ._painter import How, Painter
 from ._turn import RendererTurn
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
 from .camera_choice import CameraChoice
-from .draw_list.draw_list import DrawList
 from .draw_list.placement import Placing
 from .frame import Frame
-from .options import (
-    OptionKeywords,
-    RenderOptions,
-    shows_options,
-    with_both_sides,
-)
-from .passes.all_passes import Passes
-from .passes.protocol import Picture, Tools
+from .options import OptionKeywords, RenderOptions, shows_options
+from .passes.protocol import Picture, Sight
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -107,18 +99,11 @@ class Renderer(Closed):
         number = resolve_backend(backend)
         self._backend = list(_native.BACKENDS)[number]
         threads = resolve_threads(threads)
-        self._native = _native.NativeRenderer(number, threads)
-        self._draw_list = DrawList(self._color_space, threads)
-        self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
-        self._viewpoint = Viewpoint(self._draw_list)
+        self._turn = RendererTurn()
         per_pixel = _SAMPLES[antialiasing][samples]
-        memory = FrameMemory(*per_pixel, threads)
-        is_srgb = color_space == "srgb"
-        self._passes = Passes(
-            Tools(self._native, self._draw_list, memory, number, threads, is_srgb, per_pixel)
-        )
-        self._turn = RendererTurn(self._native)
+        self._painter = Painter(How(number, threads, self._color_space, per_pixel), self._turn)
+        self._viewpoint = Viewpoint(self._painter.draw_list)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -160,15 +145,14 @@ class Renderer(Closed):
         """Free the renderer's memory; frames stay valid. Drawing afterwards raises an error."""
         with self._turn.taken(closing=True):
             # Nothing reads these again: `_check_drawable` refuses to draw.
-            self._native = self._draw_list = None  # type: ignore[assignment]
-            self._viewpoint = self._passes = None  # type: ignore[assignment]
+            self._painter = self._viewpoint = None  # type: ignore[assignment]
             self._turn.let_go()
             self._pool.forget()
 
     def _forget_arrays(self) -> None:
         self._pool.forget()
-        if self._passes is not None:
-            self._passes.forget()
+        if self._painter is not None:
+            self._painter.passes.forget()
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
@@ -205,24 +189,25 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            options = self._options.named(options, keywords)
-            frame_options = self._options.get(scene, options, self.height)
-            plan = self._passes.plan(options, tuple(options.outputs), self._size)
+            painter = self._painter
+            options = painter.options.named(options, keywords)
+            frame_options = painter.options.get(scene, options, self.height)
+            plan = painter.passes.plan(options, tuple(options.outputs), self._size)
             headlight = frame_options.headlight((0.0, 0.0, 1.0))
             listing, census = frame_options.listing(plan.listed), scene.data.census()
             try:
-                self._draw_list.update(scene.data, listing, headlight, Placing())
+                painter.draw_list.update(scene.data, listing, headlight, Placing())
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
             self._pool.prepare(plan.outputs)
             axis, multiple = _SAMPLES[self._antialias][self._samples]
-            self._native.prepare(self.width * axis, self.height * axis, multiple or 1)
+            painter.native.prepare(self.width * axis, self.height * axis, multiple or 1)
 
     def _check_drawable(self, scene: object) -> None:
         if not isinstance(scene, (Scene, StagedScene)):
             raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
-        if self._native is None:
+        if self._painter is None:
             raise InvalidArgumentError("the renderer is closed")
 
     @shows_options
@@ -271,7 +256,7 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            options = self._options.named(options, keywords)
+            options = self._painter.options.named(options, keywords)
             return self._draw(scene, camera, options, out, culling_camera)
 
     def _draw(
@@ -284,12 +269,13 @@ class Renderer(Closed):
     ) -> Frame:
         """Draw a frame; the caller holds the turn."""
         outputs = tuple(options.outputs if out is None else self._check_out(out).outputs)
-        plan = self._passes.plan(options, outputs, self._size)
+        passes = self._painter.passes
+        plan = passes.plan(options, outputs, self._size)
         frame = Frame(self._size, self._pool.take(plan.outputs)) if out is None else out
         census, reads_scene = scene.data.census(), True
         try:
             picture = self._look(scene, camera, options, plan.listed, culling_camera)
-            picture.targets, picture.arrays = self._passes.arrays(plan, frame._outputs)
+            picture.targets, picture.arrays = passes.arrays(plan, frame._outputs)
             for one in plan.passes:
                 reads_scene = "scene" in one.reads
                 one.draw(picture)
@@ -311,32 +297,10 @@ class Renderer(Closed):
         culling_camera: CameraChoice,
     ) -> Picture:
         """Update the draw list, and return the picture that the passes start with."""
-        size = self._size
-        frame_options = self._options.get(scene, options, self.height)
-        view = self._viewpoint.look(scene, camera, *size)
-        chosen = frustum_of(scene, culling_camera, *size)
-        frustum = view.clip_from_world if chosen is None else chosen
-        self._draw_list.update(
-            scene.data,
-            frame_options.listing(listed),
-            frame_options.headlight(view.towards_viewer),
-            frame_options.placing(frustum, size),
-        )
-        picture = Picture(scene, options, frame_options, view, size, chosen, options.cull)
-        self._draw_list.native.close_apertures()
-        if options.cull == "auto":
-            self._let_backs_show(picture)
-        if options.mode == "depth":
-            picture.depth_range = view.depth_range(scene.bounds)
-        return picture
-
-    def _let_backs_show(self, picture: Picture) -> None:
-        """Cull backs of closed meshes, unless the camera looks into their holes."""
-        apertures = self._draw_list.open_apertures(picture.scene.data, picture.view, picture.size)
-        picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
-        if apertures is None:
-            options = with_both_sides(picture.options)
-            picture.frame_options = self._options.get(picture.scene, options, self.height)
+        view = self._viewpoint.look(scene, camera, *self._size)
+        frozen = frustum_of(scene, culling_camera, *self._size)
+        sight = Sight(view, self._size, self.height, view.towards_viewer, frozen)
+        return self._painter.look(scene, options, listed, sight)
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):

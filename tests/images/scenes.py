@@ -11,6 +11,7 @@ from images import (  # noqa: F401
     scenes_glass,
     scenes_lights,
     scenes_looks,
+    scenes_mirrors,
     scenes_multisampled,
     scenes_physical,
     scenes_shadows,

@@ -38,6 +38,7 @@ NUMBERS = {
     "alpha_to_coverage": (True,),
     "ambient_occlusion": (True,),
     "ambient_occlusion_radius": (0.7,),
+    "mirror_depth": (0, 1),
 }
 #: Options that do something only with others.
 BESIDE = {
@@ -136,6 +137,9 @@ OBJECTS = {
     "a hole": open_box,
     "orthographic": lambda scene: scene.add(e3d.OrthographicCamera(2), translation=(0, 0, 5)),
     "mirrored": lambda scene: scene.add(flag(), scale=(-1, 1, 1), translation=(0, 0, 1)),
+    "a mirror": lambda scene: scene.add(
+        e3d.plane((9, 9)), translation=(0, -0.5, 0)
+    ).object.materials.__setitem__(0, e3d.Material(mirror=0.8)),
     "hidden light": lambda scene: setattr(scene.add(LIT["LightProbe"]()), "visible", False),
 }
 

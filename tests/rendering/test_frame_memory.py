@@ -42,12 +42,12 @@ def scene_of(lights=()):
 
 def maps_of(renderer):
     """The maps of shadows that a renderer keeps, by light."""
-    passes = renderer._passes._all
+    passes = renderer._painter.passes._all
     return next(one for one in passes if isinstance(one, ShadowMaps))._kept
 
 
 def plan_of(options, size, threads):
-    tools = Tools(None, None, None, 0, threads, True, (1, 0))
+    tools = Tools(None, None, None, 0, threads, True, (1, 0), None)
     passes = [make(tools) for make in _passes.PASSES]
     return _passes.plan_of(passes, options, options.outputs, size)
 

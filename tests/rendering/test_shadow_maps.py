@@ -26,7 +26,7 @@ def stage(light=None, **light_options):
 
 def shadow_maps(renderer):
     """The pass of a renderer that draws them."""
-    return next(one for one in renderer._passes._all if isinstance(one, ShadowMaps))
+    return next(one for one in renderer._painter.passes._all if isinstance(one, ShadowMaps))
 
 
 def seen_from_above(scene, size=(160, 160), **options):
@@ -329,8 +329,8 @@ def maps_of(renderer, scene, camera, pose):
     kept = shadow_maps(renderer)._kept[0]
     from engine3d.rendering.passes import shadow_views as _shadow_views
 
-    towards, _ = renderer._draw_list.lights.placed()[0][2]
-    light = renderer._draw_list.lights.placed()[0][1]
+    towards, _ = renderer._painter.draw_list.lights.placed()[0][2]
+    light = renderer._painter.draw_list.lights.placed()[0][1]
     view = renderer._viewpoint.look(scene, (camera, pose), renderer.width, renderer.height)
     sight = _shadow_views.sight_of(view, scene.bounds, light.shadow_cascades)
     views = _shadow_views.VIEWS["cascades"](light, (towards, None), scene.bounds, sight)

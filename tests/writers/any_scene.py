@@ -29,6 +29,7 @@ MATERIALS = {
     "ior": lambda r: pick(r, 1.5, 0, 1.33, 1.0),
     "specular_intensity": lambda r: r.random(),
     "specular_color": lambda r: color(r),
+    "mirror": lambda r: pick(r, 0.0, 0.5, 1),
     "clearcoat": lambda r: r.random(),
     "clearcoat_roughness": lambda r: r.random(),
     "clearcoat_normal_scale": lambda r: pick(r, 1.0, 0.3),

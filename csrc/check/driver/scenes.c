@@ -40,6 +40,16 @@ static uint8_t *random_bytes(scene *s, random_stream *r, int32_t count)
     return values;
 }
 
+/* Radiance, which one number begins as well. */
+static float *random_pixels(scene *s, random_stream *r, int32_t count)
+{
+    float *values = scene_array(s, (size_t)count + 1, sizeof *values);
+    random_stream own = {.state = random_bits(r)};
+    for (int32_t i = 0; i < count; i++)
+        values[i] = random_float(&own, 0.0f, 2.0f);
+    return values;
+}
+
 static int32_t *random_indices(scene *s, random_stream *r, int32_t count, int32_t bound)
 {
     int32_t *values = scene_array(s, (size_t)count, sizeof *values);
@@ -445,6 +455,33 @@ static void add_ambient(scene *s, random_stream *r)
         s->frame.ambient_visibility = random_floats(s, r, s->frame.width * s->frame.height, 0.0f, 1.0f);
 }
 
+/* Random pictures for thick slices of space, which hold some of the faces. The stream goes on as if there were none. */
+static void add_mirrors(scene *s, const random_stream *stream)
+{
+    e3d_frame *frame = &s->frame;
+    random_stream own = *stream, *r = &own;
+    int32_t axis = frame->samples_axis, count = random_once_in(r, 2) ? 1 + random_below(r, SCENE_MAX_MIRRORS) : 0;
+    for (int k = 0; k < SCENE_MAX_MATERIALS && count; k++)
+        s->materials[k].mirror = random_once_in(r, 6) ? hostile_float(r) : random_float(r, -0.3f, 1.0f);
+    for (int32_t i = 0; i < count; i++) {
+        e3d_mirror *mirror = &s->mirrors[i];
+        int whole = random_once_in(r, 2);
+        for (int k = 0; k < 3; k++)
+            mirror->plane[k] = random_float(r, -1.0f, 1.0f);
+        normalize(mirror->plane);
+        mirror->plane[3] = random_once_in(r, 8) ? hostile_float(r) : random_float(r, -0.5f, 0.5f);
+        mirror->slack = random_once_in(r, 4) ? 1e6f : random_float(r, 0.0f, 1.5f);
+        mirror->width = whole ? frame->width * axis : random_below(r, 40);
+        mirror->height = whole ? frame->height * axis : random_below(r, 40);
+        mirror->left = whole ? 0 : random_below(r, 40) - 20;
+        mirror->top = whole ? 0 : random_below(r, 40) - 20;
+        mirror->scale = 1 + random_below(r, 2);
+        mirror->radiance = random_pixels(s, r, 3 * mirror->width * mirror->height * mirror->scale * mirror->scale);
+    }
+    frame->mirrors = s->mirrors;
+    frame->mirror_count = count;
+}
+
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
 {
     memset(s, 0, sizeof *s);
@@ -459,6 +496,7 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     choose_tone(&s->frame, r);
     add_ambient(s, r);
     add_apertures(s, r);
+    add_mirrors(s, r);
     return status;
 }
 

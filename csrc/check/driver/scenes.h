@@ -14,7 +14,8 @@ enum {
     SCENE_MAX_TEXTURES = 2,
     SCENE_MAX_LIGHTS = 24,
     SCENE_MAX_MATERIALS = 4,
-    SCENE_MAX_ARRAYS = 85 + SCENE_MAX_LIGHTS
+    SCENE_MAX_MIRRORS = 3,
+    SCENE_MAX_ARRAYS = 85 + SCENE_MAX_MIRRORS + SCENE_MAX_LIGHTS
 };
 
 typedef struct scene {
@@ -25,6 +26,7 @@ typedef struct scene {
     e3d_material materials[SCENE_MAX_MATERIALS];
     e3d_light lights[SCENE_MAX_LIGHTS];
     e3d_aperture apertures[2];
+    e3d_mirror mirrors[SCENE_MAX_MIRRORS];
     e3d_environment *environment; /* or NULL */
     void *arrays[SCENE_MAX_ARRAYS]; /* freed with the scene: what the meshes and draws borrow */
     int32_t array_count;

@@ -37,6 +37,14 @@ static int has_alpha(const e3d_frame *frame)
     return 0;
 }
 
+static int has_mirrors(const e3d_frame *frame)
+{
+    for (int32_t m = 0; m < frame->material_count && frame->mirror_count > 0; m++)
+        if (frame->materials[m].mirror > 0.0f)
+            return 1;
+    return 0;
+}
+
 static int has_lines(const e3d_frame *frame)
 {
     for (int32_t d = 0; d < frame->draw_count; d++)
@@ -67,7 +75,7 @@ static asked_items asked_mode(const e3d_frame *f)
     case E3D_MODE_LIT:
         return ASKED(LIT) | asked_if(has_local_light(f), E3D_ASKED_LOCAL_LIGHT) | asked_if(e3d_has_shadows(f), E3D_ASKED_SHADOWS) |
                asked_if(e3d_has_exact_shadows(f), E3D_ASKED_EXACT_SHADOWS) |
-               asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS);
+               asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS) | asked_if(has_mirrors(f), E3D_ASKED_MIRRORS);
     case E3D_MODE_UNLIT: return ASKED(UNLIT);
     case E3D_MODE_DEPTH: return ASKED(DEPTH_MODE);
     case E3D_MODE_NORMAL: return ASKED(NORMAL_MODE);
@@ -123,6 +131,7 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_SHADES, .planned = PLAN(OUTPUTS), .unless_planned = PLAN(IDENTIFIES)},
     {E3D_PLAN_POSITION, .asked = ASKED(LIT) | ASKED(LOCAL_LIGHT), .planned = PLAN(COLORS)},
     {E3D_PLAN_POSITION, .asked = ASKED(LIT) | ASKED(SHADOWS), .planned = PLAN(COLORS)},
+    {E3D_PLAN_POSITION, .asked = ASKED(LIT) | ASKED(MIRRORS), .planned = PLAN(COLORS)},
     {E3D_PLAN_POSITION, .asked = ASKED(DEPTH_MODE), .planned = PLAN(COLORS)},
     {E3D_PLAN_POSITION, .asked = ASKED(FOG), .planned = PLAN(COLORS)},
     {E3D_PLAN_POSITION, .asked = ASKED(POSITIONS)},
@@ -168,6 +177,7 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_SPANS, .planned = PLAN(IDENTIFIES), .unless_planned = PLAN(DEPTHS)},
     {E3D_PLAN_LISTS, .planned = PLAN(SHADES), .unless_asked = ASKED(MULTISAMPLING),
      .unless_planned = PLAN(SLOTS)},
+    {E3D_PLAN_REFLECTS, .asked = ASKED(LIT) | ASKED(MIRRORS), .planned = PLAN(COLORS)},
     {E3D_PLAN_FINDS_EXACT_SHADOWS, .asked = ASKED(EXACT_SHADOWS), .planned = PLAN(COLORS)},
     {E3D_PLAN_PAINTS, .asked = ASKED(LIT), .planned = PLAN(COLORS), .unless_asked = ASKED(MANY_LIGHTS),
      .unless_planned = PLAN(OUTPUTS) | PLAN(FINDS_EXACT_SHADOWS)},

@@ -45,7 +45,8 @@
     X(HUGE, "more samples than tiles are kept for") \
     X(SHADOWS, "lights that have shadows") \
     X(EXACT_SHADOWS, "lights that have exact shadows") \
-    X(MULTISAMPLING, "several samples a pixel, of which each surface is shaded once")
+    X(MULTISAMPLING, "several samples a pixel, of which each surface is shaded once") \
+    X(MIRRORS, "mirrors, and materials that show them")
 
 /* What is done for it: X(name, description). */
 #define E3D_PLANNED(X) \
@@ -74,6 +75,7 @@
     X(FRAGMENTS, "micro-triangles go to the tiles as samples") \
     X(SPANS, "tiles of few records may be drawn without depths") \
     X(LISTS, "tiles may list visible samples by record instead of by row") \
+    X(REFLECTS, "mirrors show their pictures") \
     X(FINDS_EXACT_SHADOWS, "exact shadows are found on visible samples, light by light") \
     X(PAINTS, "one kernel takes samples from the surface to the encoded pixel") \
     X(ROUNDS, "the frame may be drawn in rounds that test against the ones before") \

@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/fpenv.h"
 #include "base/pool.h"
+#include "data/mirrors.h"
 #include "data/shadows.h"
 #include "data/sample_patterns.h"
 #include "e3d.h"
@@ -41,7 +42,7 @@ static int frame_is_valid(const e3d_frame *f)
     if ((unsigned)f->line_shape > E3D_LINES_ROUND || (unsigned)f->point_shape > E3D_POINTS_ROUND)
         return 0;
     if (f->draw_count < 0 || f->material_count < 0 || f->light_count < 0 ||
-        (f->order && f->order_count < 0) || !e3d_shadows_are_valid(f))
+        (f->order && f->order_count < 0) || !e3d_shadows_are_valid(f) || !e3d_mirrors_are_valid(f))
         return 0;
     for (int32_t d = 0; d < f->draw_count; d++) {
         const e3d_draw *draw = &f->draws[d];

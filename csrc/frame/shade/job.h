@@ -42,6 +42,7 @@ typedef struct e3d_shade_memory {
     e3d_lane_array light[3]; /* the batch's radiance, if blended samples keep theirs */
     _Alignas(64) e3d_surfaces surfaces; /* the surfaces of the batch and of their neighbours */
     e3d_texture_memory textures;
+    _Alignas(64) e3d_mirror_batch mirrors; /* the batch in mirrors */
     e3d_array primitives;                   /* e3d_visible_primitive */
     e3d_array buckets;                  /* e3d_bucket */
     _Alignas(64) e3d_receivers receivers; /* the surfaces' planes, if lights have exact shadows */
@@ -86,6 +87,7 @@ typedef struct e3d_bucket {
     int8_t mapped;
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int8_t transmits;                       /* R133 */
+    int8_t mirrors;                         /* not 0: its faces may show mirrors (R210) */
     int8_t lit, hidden;                     /* not 0: light falls on it; its faces are left out by a wireframe */
     int32_t first, last; /* the chain of its visible primitives */
 } e3d_bucket;

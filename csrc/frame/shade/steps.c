@@ -12,6 +12,7 @@
 #include "frame/shade/alpha_batch.h"
 #include "frame/shade/ambient.h"
 #include "frame/shade/texture_slots.h"
+#include "frame/shade/mirrors.h"
 #include "frame/shade/modes.h"
 #include "frame/shade/steps.h"
 #include "frame/shade/surface.h"
@@ -155,7 +156,8 @@ static int is_solid(e3d_sink sink) { return sink == E3D_SINK_PIXELS || sink == E
 /* Whether the fused kernel is used: samples are painted straight to where colours are kept. */
 static int is_painted(const e3d_steps *s)
 {
-    return is_solid(s->out->sink) && e3d_plans(s->pass, E3D_PLAN_PAINTS) && !s->bucket->mapped && !s->bucket->hidden;
+    return is_solid(s->out->sink) && e3d_plans(s->pass, E3D_PLAN_PAINTS) && !s->bucket->mapped && !s->bucket->mirrors &&
+           !s->bucket->hidden;
 }
 
 static void add_surface_steps(e3d_steps *s)
@@ -171,9 +173,11 @@ static void add_radiance_steps(e3d_steps *s)
     const e3d_bucket *bucket = s->bucket;
     add(s, bucket->lit, find_visibility);
     add(s, e3d_receives_exact_shadows(s->pass, bucket), hide_lights);
+    add(s, bucket->mirrors, e3d_find_mirrors);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);
     add(s, fog_of(s->pass, bucket) != NULL, add_fog);
+    add(s, bucket->mirrors, e3d_lay_mirrors);
 }
 
 static void add_pixel_steps(e3d_steps *s)

@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/transmits.h"
+#include "frame/shade/mirrors.h"
 #include "frame/shade/surface.h"
 #include "frame/shade/texture_slots.h"
 #include "kernels/coverage.h"
@@ -75,6 +76,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     g.unshadowed = draw->unshadowed != 0;
     g.transmits = g.face && e3d_transmits(frame, g.material);
     g.lit = g.face && frame->mode == E3D_MODE_LIT && !g.material->is_unlit;
+    g.mirrors = g.lit && e3d_may_mirror(pass, g.material);
     g.hidden = g.face && frame->wireframe == E3D_WIRE_ONLY;
     g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
     g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;

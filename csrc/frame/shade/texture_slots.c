@@ -304,8 +304,17 @@ static e3d_varying spread_of(const e3d_texture_memory *textures, e3d_texture_slo
     return varying_of(textures, slot, 3, scale * scale);
 }
 
-static e3d_brdf brdf_of(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_texture_memory *textures)
+static void add_mirrors(const e3d_bucket *bucket, const e3d_shade_memory *memory, e3d_brdf *brdf)
 {
+    if (!bucket->mirrors)
+        return;
+    brdf->unmirrored = memory->mirrors.rest;
+    brdf->is_rare = 1;
+}
+
+static e3d_brdf brdf_of(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_memory *memory)
+{
+    const e3d_texture_memory *textures = &memory->textures;
     const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
     e3d_brdf brdf = {
@@ -329,12 +338,20 @@ static e3d_brdf brdf_of(const e3d_prepared *pass, const e3d_bucket *bucket, cons
         brdf.absorption[k] = p->absorption[k];
     }
     add_rare(textures, p, &brdf);
+    add_mirrors(bucket, memory, &brdf);
     return brdf;
+}
+
+void e3d_share_mirrors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+{
+    const e3d_brdf brdf = brdf_of(pass, bucket, memory);
+    pass->kernels->mirror_shares(&memory->batch, &memory->textures.batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed),
+                                 &memory->mirrors);
 }
 
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
-    const e3d_brdf brdf = brdf_of(pass, bucket, &memory->textures);
+    const e3d_brdf brdf = brdf_of(pass, bucket, memory);
     if (brdf.absorbs)
         find_depths(pass, memory, memory->textures.batch.depth);
     pass->kernels->physical(&memory->batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->textures.batch);

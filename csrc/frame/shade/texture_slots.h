@@ -24,5 +24,7 @@ void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primiti
 void e3d_find_texture_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory);
 /* The alpha of a batch whose texels are found, without the vertices' and the instance's factors. */
 e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_texture_memory *textures);
+/* Finds how much a physically based material reflects of what mirrors show; color is its base colour. */
+void e3d_share_mirrors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory);
 /* Finds the colours of a physically based material. */
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory);

@@ -30,6 +30,7 @@
 #include "kernels/generic/ambient_occlusion.inl"
 #include "kernels/generic/shade/texture_slots.inl"
 #include "kernels/generic/shade/physical.inl"
+#include "kernels/generic/shade/mirror.inl"
 #include "kernels/generic/tone.inl"
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"

@@ -95,6 +95,14 @@ typedef struct e3d_batch {
     float beside[2];                       /* how much is added to that (R190) */
 } e3d_batch;
 
+/* The samples of a batch in mirrors. */
+typedef struct e3d_mirror_batch {
+    e3d_lane_array share, rest;  /* m of R210, and 1 - m */
+    e3d_lane_array light[3];     /* what the pictures show */
+    e3d_lane_array reflected[3]; /* of physically based materials: the share of that, by channel (R211) */
+    e3d_lane_array haze[3];      /* of these: what fog makes of black */
+} e3d_mirror_batch;
+
 /* The samples' positions in world space, wherever they are lit. */
 static inline const e3d_lane_array *e3d_batch_places(const e3d_batch *batch) { return batch->facets ? batch->place : batch->position; }
 

@@ -113,5 +113,6 @@ typedef struct e3d_brdf {
     e3d_anisotropy_texture stretch;
     e3d_varying iridescence_thickness; /* of the film, in nanometres, above the least */
     float iridescence_thickness_least, iridescence_ior;
-    int is_rare;      /* it transmits, or is anisotropic or iridescent */
+    const float *unmirrored; /* NULL, or lanes: the share of what lies around that is reflected (R211) */
+    int is_rare;      /* it transmits, is anisotropic, iridescent or a mirror */
 } e3d_brdf;

@@ -46,6 +46,11 @@ def not_held(format: str, things: Iterable[str]) -> list[str]:
     return [f"{format} files do not hold {named}"] if named else []
 
 
+def lost_mirrors(format: str, names: list[str]) -> list[str]:
+    """Return a line about materials that mirror, if there are any."""
+    return [f"{format} files do not hold mirror of {_some(names)}"] if names else []
+
+
 def lost_of_materials(mesh: Mesh, unwritten: dict[str, list[str]]) -> list[str]:
     """Return a line for each material feature that MTL cannot express.
 
@@ -73,6 +78,8 @@ def lost_of_reading(texture: Texture) -> list[str]:
 
 def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
     things = ["two_sided"] if material.two_sided else []
+    if material.mirror:
+        things.append("mirror")
     if material.flat_shading and has_normals:
         things.append("flat_shading")  # without normals, smoothing groups express it
     if material.alpha_mode == "mask" and material.alpha_cutoff != 0.5:

@@ -155,6 +155,13 @@ class Material(ShownInNotebooks, Versioned):
     specular_color: ColorNumbers = Parameter(
         COLOR, default=(1, 1, 1), gltf="specular/specularColorFactor", doc="Its colour from above."
     )
+    mirror: Number = Parameter(
+        SHARE,
+        default=0.0,
+        doc="How much of a perfect mirror flat faces are in mode lit. Of physical materials, it "
+        "replaces what they reflect of the environment, and their colours and angles weigh it; of "
+        "others it covers the colour.",
+    )
     clearcoat: Number = Parameter(
         SHARE, default=0.0, gltf="clearcoat/clearcoatFactor", doc="Strength of a coat of varnish."
     )

@@ -158,6 +158,15 @@ class DrawList:
         """Whether a closed mesh has holes, which a light may look into."""
         return bool(self._with_holes)
 
+    @property
+    def has_mirrors(self) -> bool:
+        """Whether a listed material mirrors."""
+        return bool(self._materials.mirrors)
+
+    def is_closed(self, number: int) -> bool:
+        """Return whether the backs of an object may be culled."""
+        return number in self._closed
+
     def shows(self, data: AnyData) -> bool:
         """Return whether nothing in the scene has changed or moved since the last update."""
         return self._placement.shows(data.arrays) and self._lists(data)

@@ -45,6 +45,8 @@ class MaterialList:
     ----------
     untextured : frozenset of Material
         Materials set without their textures.
+    mirrors : set of Material
+        The listed materials that mirror.
     reading : callable or None
         As in `SceneData`.
     """
@@ -52,6 +54,7 @@ class MaterialList:
     def __init__(self, native: NativeDrawList, color_space: ColorSpace, watch: Watch) -> None:
         self._native, self._color_space, self._watch = native, color_space, watch
         self.untextured: frozenset[Material] = frozenset()
+        self.mirrors: set[Material] = set()
         self.reading: Reading | None = None
         # For each material its places, their owners, and whether both sides are forced to show.
         self._places: dict[Material, list[tuple[int, int, bool]]] = {}
@@ -116,6 +119,7 @@ class MaterialList:
     def _set(self, index: int, material: Material, number: int, both: bool) -> None:
         self._watch.add(material)
         self._traits[material] = _traits_of(material)
+        (self.mirrors.add if material.mirror > 0 else self.mirrors.discard)(material)
         placed = {} if material in self.untextured else placed_textures_of(material)
         self._note_textures(material, {use.texture for use in placed.values()})
         space = self._color_space
@@ -166,6 +170,7 @@ def _numbers(material: Material, color_space: ColorSpace) -> dict[str, Any]:
         "alpha": material.alpha,
         "alpha_mode": ALPHA_MODES[material.alpha_mode],
         "alpha_cutoff": material.alpha_cutoff,
+        "mirror": material.mirror,
     }
 
 

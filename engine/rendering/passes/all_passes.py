@@ -19,6 +19,7 @@ from ..options import RenderOptions
 from .ambient_occlusion import AmbientOcclusion
 from .bloom import Bloom
 from .exact_shadows import ExactShadows
+from .mirrors import Mirrors
 from .output_passes import SURFACE, ColorPass, SurfacePass
 from .protocol import Pass, Tools
 from .shadow_maps import ShadowMaps
@@ -31,6 +32,7 @@ PASSES: tuple[type[Pass], ...] = (
     ExactShadows,
     SurfacePass,
     AmbientOcclusion,
+    Mirrors,
     ColorPass,
     Bloom,
 )

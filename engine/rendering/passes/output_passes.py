@@ -6,6 +6,8 @@ from the kernels.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -38,7 +40,7 @@ class SurfacePass(Pass):
 class ColorPass(Pass):
     """Draws the picture: the frame's outputs, and others that later passes read."""
 
-    reads = ("shadow_maps", "exact_shadows", "ambient_visibility")
+    reads = ("shadow_maps", "exact_shadows", "ambient_visibility", "mirrors")
     writes = tuple(OUTPUTS)
 
     def draw(self, picture: Picture) -> None:
@@ -47,6 +49,7 @@ class ColorPass(Pass):
             *(self, picture, picture.targets, options.native, self.tools.samples),
             picture.view.rays if options.has_backdrop else None,
             picture.arrays.get("ambient_visibility"),
+            picture.mirrors or None,
         )
         picture.drawn.shadow_maps, picture.drawn.shadow_maps_drawn = picture.shadow_maps
 
@@ -59,6 +62,7 @@ def _render(
     samples: tuple[int, int],
     rays: NDArray[np.float32] | None = None,
     visibility: NDArray[np.float32] | None = None,
+    mirrors: list[tuple[Any, ...]] | None = None,
 ) -> NativeStats:
     view = picture.view
     return one.tools.native.render(
@@ -72,7 +76,8 @@ def _render(
         view.eye,
         id(view.camera),
         *picture.depth_range,
-        picture.frozen_clip_from_world,
+        picture.sight.frozen,
         rays,
         visibility,
+        mirrors,
     )

@@ -6,14 +6,16 @@ lists the passes in order, and allocates the arrays that each declares.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..._native.rasterizer import NativeRenderer, NativeStats
 from ...choices import FrameCull
+from ...model.environments.environment import Environment
 from ...model.scene.staged_scene import AnyScene
 from .._frame_memory import FrameMemory
 from .._frame_options import FrameOptions
@@ -21,6 +23,25 @@ from .._output_pool import Shapes
 from .._view import View
 from ..draw_list.draw_list import DrawList
 from ..options import RenderOptions
+
+
+class Sight(NamedTuple):
+    """What a picture is drawn of, and how large."""
+
+    view: View
+    size: tuple[int, int]
+    rows: int  # pixels of the height that sizes of lines and points are relative to
+    headlight: Sequence[float]  # the direction to a light, for scenes without one
+    frozen: NDArray[np.float64] | None = None  # the frustum to cull by, if another
+    beyond: Environment | None = None  # takes the place of a plain background
+
+
+class MirrorPainter(Protocol):
+    """Draws what a mirror reflects, with passes of its own."""
+
+    def radiance(
+        self, scene: AnyScene, options: RenderOptions, sight: Sight
+    ) -> NDArray[np.float32]: ...
 
 
 class Tools(NamedTuple):
@@ -33,6 +54,7 @@ class Tools(NamedTuple):
     threads: int
     is_srgb: bool
     samples: tuple[int, int]  # per pixel: along an axis, and multisamples of each
+    another: Callable[[], MirrorPainter]  # with one sample per pixel
 
 
 @dataclass(slots=True)
@@ -42,16 +64,23 @@ class Picture:
     scene: AnyScene
     options: RenderOptions
     frame_options: FrameOptions
-    view: View
-    size: tuple[int, int]
-    frozen_clip_from_world: NDArray[np.float64] | None  # the frustum to cull by, if frozen
+    sight: Sight
     shadow_cull: FrameCull  # which faces cast no shadow
     targets: dict[str, np.ndarray] = field(init=False)  # the frame's and other outputs
     arrays: dict[str, np.ndarray] = field(init=False)  # other arrays that passes declare
     # metric depths shown white and black in mode "depth"
     depth_range: tuple[float, float] = (0.0, 1.0)
     shadow_maps: tuple[int, int] = (0, 0)  # how many there are, and how many were drawn
+    mirrors: list[tuple[Any, ...]] = field(default_factory=list)  # as the core takes them
     drawn: NativeStats = field(init=False)
+
+    @property
+    def view(self) -> View:
+        return self.sight.view
+
+    @property
+    def size(self) -> tuple[int, int]:
+        return self.sight.size
 
 
 class Pass:

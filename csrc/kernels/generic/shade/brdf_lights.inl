@@ -236,6 +236,9 @@ static ALWAYS_INLINE void around_find(const e3d_lighting *lighting, const enviro
         load_three(batch->normal, i + s * V_LANES, normal);
         around_base(lighting, plan, normal, &at[s], rare, out[s].radiance);
     }
+    for (int s = 0; s < count && rare && rare->unmirrored; s++) /* R211 */
+        for (int k = 0; k < 3; k++)
+            out[s].radiance[k] = v_mul(out[s].radiance[k], v_loadf(rare->unmirrored + i + s * V_LANES));
     for (int s = 0; s < count; s++) {
         out[s].a = albedo_of(E3D_DFG_A, &out[s].place);
         out[s].b = albedo_of(E3D_DFG_B, &out[s].place);

@@ -32,11 +32,17 @@ static ALWAYS_INLINE void brdf_sheen(const e3d_brdf *brdf, const brdf_lanes *at,
     }
 }
 
+/* R52 */
+static ALWAYS_INLINE vf32 brdf_coat_share(const e3d_brdf *brdf, const brdf_lanes *at, int i)
+{
+    vf32 one = v_setf(1.0f), w5 = fifth_power(v_sub(one, v_min(at->coat.nv, one)));
+    return v_mul(varying_at(&brdf->coat, i), v_add(v_setf(0.04f), v_mul(v_setf(0.96f), w5)));
+}
+
 static ALWAYS_INLINE void brdf_add_layer(const e3d_brdf *brdf, const e3d_lighting *lighting, const environment_plan *plan,
                                          const vf32 normal[3], const brdf_lanes *at, vf32 occlusion, int i, vf32 color[3])
 {
-    vf32 radiance[3], one = v_setf(1.0f), w5 = fifth_power(v_sub(one, v_min(at->coat.nv, one)));
-    vf32 fc = v_mul(varying_at(&brdf->coat, i), v_add(v_setf(0.04f), v_mul(v_setf(0.96f), w5)));
+    vf32 radiance[3], one = v_setf(1.0f), fc = brdf_coat_share(brdf, at, i);
     around_radiance(lighting, plan, normal, &at->coat, at->view, radiance);
     for (int k = 0; k < 3; k++) {
         vf32 coat = v_add(at->coat_light[k], v_mul(radiance[k], occlusion));
@@ -54,10 +60,8 @@ static ALWAYS_INLINE void brdf_through(const e3d_brdf *brdf, int has_coat, int h
         vf32 most = v_max(v_max(varying_at(&brdf->sheen[0], i), varying_at(&brdf->sheen[1], i)), varying_at(&brdf->sheen[2], i));
         fuzz = v_sub(one, v_mul(most, albedo_of(E3D_DFG_SHEEN, &place)));
     }
-    if (has_coat) {
-        vf32 w5 = fifth_power(v_sub(one, v_min(at->coat.nv, one)));
-        coat = v_sub(one, v_mul(varying_at(&brdf->coat, i), v_add(v_setf(0.04f), v_mul(v_setf(0.96f), w5))));
-    }
+    if (has_coat)
+        coat = v_sub(one, brdf_coat_share(brdf, at, i));
     if (brdf->absorbs)
         depth = v_mul(varying_at(&brdf->thickness, i), v_loadf(m->depth + i));
     for (int k = 0; k < 3; k++) {

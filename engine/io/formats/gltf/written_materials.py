@@ -52,6 +52,8 @@ class GltfMaterialList:
     required : set of str
     converted : int
         How many materials were converted to physical ones.
+    mirrors : list of str
+        The names of materials that mirror, which glTF cannot hold.
     lost : dict of str to int
         Sampling settings that glTF cannot hold, and how many textures have them.
     """
@@ -65,6 +67,7 @@ class GltfMaterialList:
         self.extensions: set[str] = set()
         self.required: set[str] = set()
         self.converted = 0
+        self.mirrors: list[str] = []
         self.lost: dict[str, int] = {}
         self._numbers: dict[int, int] = {}
         self._twins: dict[tuple[str, bool], list[int]] = {}
@@ -81,6 +84,8 @@ class GltfMaterialList:
         return None if number < 0 else number
 
     def _add(self, material: Material) -> int:
+        if material.mirror:
+            self.mirrors.append(material.name or f"material_{len(self.materials)}")
         entry = self._entry(material)
         if not entry and is_implied(material):
             return -1

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...reading.documents import ClipRecord, LampRecord, LensRecord, NodeRecord, TreeRecord
-from ...writing.losses import not_held
+from ...writing.losses import lost_mirrors, not_held
 from .gltf_file import LIGHTS
 from .gltf_nodes import INSTANCING, VISIBILITY
 from .gltf_pointers import POINTER
@@ -73,6 +73,7 @@ class GltfTree:
             f"gltf files do not hold {thing} of {count} texture{'s' * (count > 1)}"
             for thing, count in materials.lost.items()
         ]
+        self.told += lost_mirrors("gltf", materials.mirrors)
         self.told += not_held("gltf", dict.fromkeys(meshes.lost))
         self._extensions |= materials.extensions
         self.json = self._with_extensions(tree, lists, materials.required)

@@ -1,0 +1,120 @@
+"""Draws pictures of scenes along views, each with the passes that it needs.
+
+In: a scene, options and a `Sight`. Out: arrays. A renderer has one painter for its frames, and that
+one others for what mirrors show.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._native.rasterizer import NativeRenderer
+from ..choices import ColorSpace
+from ..model.scene.staged_scene import AnyScene
+from ._frame_memory import FrameMemory
+from ._frame_options import OptionsCache
+from ._output_pool import OutputPool
+from ._turn import RendererTurn
+from .draw_list.draw_list import DrawList
+from .options import RenderOptions, with_both_sides
+from .passes.all_passes import Passes
+from .passes.protocol import Picture, Sight, Tools
+
+
+class How(NamedTuple):
+    """How a painter draws; 0 threads are all."""
+
+    backend: int
+    threads: int
+    color_space: ColorSpace
+    samples: tuple[int, int]  # per pixel: along an axis, and multisamples of each
+
+
+class Painter:
+    """What draws the pictures of one renderer, or of one of its mirrors.
+
+    Parameters
+    ----------
+    how : How
+    turn : RendererTurn
+        Of the renderer, whose caller holds it.
+
+    Attributes
+    ----------
+    native : NativeRenderer
+    draw_list : DrawList
+    options : OptionsCache
+    passes : Passes
+    """
+
+    def __init__(self, how: How, turn: RendererTurn) -> None:
+        backend, threads, color_space, samples = how
+        self.native = NativeRenderer(backend, threads)
+        self.draw_list = DrawList(color_space, threads)
+        self.options = OptionsCache(color_space, threads)
+        self._how, self._turn = how, turn
+        self._pool = OutputPool()
+        turn.hold(self.native)
+        self.passes = Passes(
+            Tools(
+                self.native,
+                self.draw_list,
+                FrameMemory(*samples, threads),
+                backend,
+                threads,
+                color_space == "srgb",
+                samples,
+                self.another,
+            )
+        )
+
+    def another(self) -> Painter:
+        """Return a painter with one sample per pixel."""
+        return Painter(self._how._replace(samples=(1, 0)), self._turn)
+
+    def look(
+        self, scene: AnyScene, options: RenderOptions, listed: tuple[str, ...], sight: Sight
+    ) -> Picture:
+        """Update the draw list, and return the picture that the passes start with."""
+        view, size = sight.view, sight.size
+        frame_options = self.options.get(scene, options, sight.rows, sight.beyond)
+        frustum = view.clip_from_world if sight.frozen is None else sight.frozen
+        self.draw_list.update(
+            scene.data,
+            frame_options.listing(listed),
+            frame_options.headlight(sight.headlight),
+            frame_options.placing(frustum, size),
+        )
+        picture = Picture(scene, options, frame_options, sight, options.cull)
+        self.draw_list.native.close_apertures()
+        if options.cull == "auto":
+            self._let_backs_show(picture)
+        if options.mode == "depth":
+            picture.depth_range = view.depth_range(scene.bounds)
+        return picture
+
+    def radiance(
+        self, scene: AnyScene, options: RenderOptions, sight: Sight
+    ) -> NDArray[np.float32]:
+        """Return the radiance of a picture, (height, width, 3)."""
+        plan = self.passes.plan(options, ("radiance",), sight.size)
+        outputs = self._pool.take(plan.outputs)
+        picture = self.look(scene, options, plan.listed, sight)
+        picture.targets, picture.arrays = self.passes.arrays(plan, outputs)
+        for one in plan.passes:
+            one.draw(picture)
+            self._turn.check()
+        return outputs["radiance"]
+
+    def _let_backs_show(self, picture: Picture) -> None:
+        """Cull backs of closed meshes, unless the camera looks into their holes."""
+        apertures = self.draw_list.open_apertures(picture.scene.data, picture.view, picture.size)
+        picture.shadow_cull = "none" if self.draw_list.has_holes else "back"
+        if apertures is None:
+            sight, options = picture.sight, with_both_sides(picture.options)
+            picture.frame_options = self.options.get(
+                picture.scene, options, sight.rows, sight.beyond
+            )

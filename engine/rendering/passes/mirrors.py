@@ -1,0 +1,77 @@
+"""Mirrors: what flat mirrors of a scene reflect, each drawn as one more view of the scene.
+
+In: an up-to-date draw list, and the picture's view. Out: for each mirror in view its plane, and the
+radiance that it reflects at each sample of a part of the picture, by which the core shades faces
+(docs/exactness, section 27). The views are drawn by the same passes, this one included.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.image_size import MAX_SIZE
+from ..options import RenderOptions, as_mirrored, shows_light
+from .mirror_backgrounds import MirrorBackgrounds
+from .mirror_planes import MirrorFinder, MirrorPlane, slack_of
+from .mirror_views import Reflection, part_of
+from .protocol import MirrorPainter, Pass, Picture, Sight, Tools
+
+_FINER = 2  # rows and columns in a pixel with multisampling, whose outputs have one sample
+
+
+class Mirrors(Pass):
+    """Draws what mirrors reflect, for pictures with lit surfaces."""
+
+    reads = ("scene",)
+    writes = ("mirrors",)
+
+    def __init__(self, tools: Tools) -> None:
+        super().__init__(tools)
+        self._finder = MirrorFinder(tools.draw_list)
+        self._backgrounds = MirrorBackgrounds(tools.is_srgb)
+        self._painters: list[MirrorPainter] = []  # by the mirror's number in the picture
+
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        return options.mode == "lit" and options.mirror_depth > 0 and shows_light(wanted)
+
+    def draw(self, picture: Picture) -> None:
+        if not self.tools.draw_list.has_mirrors:
+            return
+        scene, bounds = picture.scene, picture.scene.bounds
+        slack = slack_of(bounds)
+        for plane in self._finder.find(picture, slack):
+            view = self._view(picture, plane, bounds)
+            if view is None:
+                continue
+            fineness = self.tools.samples[0] * view.scale
+            options = as_mirrored(picture.options, fineness)
+            sight = self._sight(picture, view, fineness)
+            radiance = self._painter(len(picture.mirrors)).radiance(scene, options, sight)
+            numbers = (*plane.normal.tolist(), plane.offset)
+            place = view.part.left, view.part.top, view.scale
+            picture.mirrors.append((numbers, slack, *place, radiance))
+
+    def _view(
+        self, picture: Picture, plane: MirrorPlane, bounds: NDArray[np.float64]
+    ) -> Reflection | None:
+        """Return the view of what a mirror shows; None if it shows nothing."""
+        axis, multiple = self.tools.samples
+        samples = picture.size[0] * axis, picture.size[1] * axis
+        part = part_of(plane, picture.view, samples)
+        if part is None or max(part.width, part.height) > MAX_SIZE:
+            return None
+        is_small = _FINER * max(part.width, part.height) <= MAX_SIZE
+        scale = _FINER if multiple and is_small else 1
+        view = Reflection(picture.view, plane, part, samples, scale, bounds)
+        return view if view.is_usable else None
+
+    def _sight(self, picture: Picture, view: Reflection, fineness: int) -> Sight:
+        beyond = self._backgrounds.beyond(picture.scene, picture.options)
+        rows, headlight = picture.sight.rows * fineness, picture.sight.headlight
+        return Sight(view, view.size, rows, headlight, beyond=beyond)
+
+    def _painter(self, number: int) -> MirrorPainter:
+        if number == len(self._painters):
+            self._painters.append(self.tools.another())
+        return self._painters[number]

@@ -7,7 +7,7 @@ enum {
     E3D_OCCLUSION_STEP = 2,   /* pixels from site to site */
     E3D_OCCLUSION_CELL = 8,   /* sites a side that together look in all directions */
     E3D_OCCLUSION_NUMBERS = E3D_OCCLUSION_CELL * E3D_OCCLUSION_CELL,
-    E3D_OCCLUSION_TAPS = 6,   /* places to either side */
+    E3D_OCCLUSION_TAPS = 5,   /* places to either side */
     E3D_OCCLUSION_REACH = 64, /* the greatest distance in sites */
     E3D_OCCLUSION_FILTER = 4, /* how many sites to either side the filter reads */
     E3D_OCCLUSION_SPAN = 2 * E3D_OCCLUSION_FILTER + 1,
@@ -17,7 +17,7 @@ enum {
 
 #define E3D_OCCLUSION_START 0.75f        /* sites to the nearest place, at least */
 #define E3D_OCCLUSION_SLACK 0x1p-10f     /* the squared sine of the least angle above a surface that counts */
-#define E3D_OCCLUSION_GAP 0.2f           /* what of the rise between two places is added to the higher one */
+#define E3D_OCCLUSION_GAP 0.25f          /* what of the rise between two places is added to the higher one */
 #define E3D_OCCLUSION_ROUNDING 0.25f     /* of a sector: a surface does not hide itself */
 #define E3D_OCCLUSION_NO_CHANGE 0x1p126f /* the change of nearness where nothing shows beside a site */
 #define E3D_OCCLUSION_LEAST_FACING 0x1p-20f /* of a normal and the line of sight */

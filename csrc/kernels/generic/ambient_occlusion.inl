@@ -59,7 +59,9 @@ static void kernel_occlusion_sites(const float *depth, int width, int is_perspec
  * next sites need is fetched ahead. */
 static ALWAYS_INLINE void occlusion_normals(const e3d_depth_picture *p, int row, int x, vf32 out[3])
 {
-    enum { SITE = 3 * E3D_OCCLUSION_STEP, LINE = 16, AHEAD = 64 };
+    enum { SITE = 3 * E3D_OCCLUSION_STEP,
+           LINE = 16,
+           AHEAD = 64 };
     const float *first = p->normal + SITE * ((size_t)row * (size_t)p->width);
     vi32 column = v_mini(v_shl(v_addi(v_seti(x), v_iota()), 1), v_seti(p->width - 1));
     vi32 place = v_addi(v_addi(column, column), column);
@@ -143,9 +145,6 @@ static ALWAYS_INLINE occlusion_slice occlusion_slice_of(const e3d_occlusion_patt
 
 /* ---- sectors (R127) ---- */
 
-/* Vectors are interleaved in short steps, since within one vector most operations would wait for those before. */
-enum { OCCLUSION_ABREAST = 2 };
-
 /* What a site sees at one place: the offset to the right and down at a depth of 1, and the depth. */
 typedef struct occlusion_place {
     vf32 right, down, depth;
@@ -161,26 +160,19 @@ static ALWAYS_INLINE occlusion_place occlusion_look(const e3d_occlusion_plan *pl
                              v_asf(v_gatheri(plan->depth, v_addi(v_muli(row, v_seti(plan->pitch)), column)))};
 }
 
-/* Looks at the places of some vectors to one side. */
-static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int x, int abreast,
-                                                const occlusion_lanes *at, int side, int is_perspective,
-                                                occlusion_place out[][OCCLUSION_ABREAST])
+/* Looks at all places to one side, before anything is found of them: lookups take long, and don't wait for each other. */
+static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at,
+                                                int side, int is_perspective, occlusion_place out[E3D_OCCLUSION_TAPS])
 {
-    vf32 reach[OCCLUSION_ABREAST];
-    for (int j = 0; j < abreast; j++) {
-        reach[j] = v_setf(plan->reach);
-        if (is_perspective)
-            reach[j] = v_mul(reach[j], at[j].near);
-        reach[j] = v_min(v_max(reach[j], v_setf(0.0f)), v_setf((float)E3D_OCCLUSION_REACH));
+    vf32 reach = v_setf(plan->reach);
+    if (is_perspective)
+        reach = v_mul(reach, at->near);
+    reach = v_min(v_max(reach, v_setf(0.0f)), v_setf((float)E3D_OCCLUSION_REACH));
+    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
+        vf32 away = v_add(v_mul(reach, v_loadf(pattern->share[side][tap] + lane)), v_setf(E3D_OCCLUSION_START));
+        vf32 step_x = v_mul(away, v_loadf(pattern->step[0] + lane)), step_y = v_mul(away, v_loadf(pattern->step[1] + lane));
+        out[tap] = side ? occlusion_look(plan, at, occlusion_minus(step_x), occlusion_minus(step_y)) : occlusion_look(plan, at, step_x, step_y);
     }
-    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++)
-        for (int j = 0; j < abreast; j++) {
-            int lane = (x + j * V_LANES) & (E3D_OCCLUSION_CELL - 1);
-            vf32 away = v_add(v_mul(reach[j], v_loadf(pattern->share[side][tap] + lane)), v_setf(E3D_OCCLUSION_START));
-            vf32 step_x = v_mul(away, v_loadf(pattern->step[0] + lane)), step_y = v_mul(away, v_loadf(pattern->step[1] + lane));
-            out[tap][j] = side ? occlusion_look(plan, &at[j], occlusion_minus(step_x), occlusion_minus(step_y))
-                               : occlusion_look(plan, &at[j], step_x, step_y);
-        }
 }
 
 /* What is like the angle of a direction above the surface, 1 for a right angle and 2 for two. */
@@ -192,33 +184,44 @@ static ALWAYS_INLINE vf32 occlusion_angle(vf32 up, vf32 along)
 
 static ALWAYS_INLINE vi32 occlusion_sector(vf32 angle) { return v_rint(v_mul(angle, v_setf((float)E3D_OCCLUSION_QUADRANT))); }
 
-/* Adds the sectors that a place hides; top is the angle of the highest place before it. */
-static ALWAYS_INLINE vi32 occlusion_hidden(const e3d_occlusion_plan *plan, const occlusion_lanes *at, const occlusion_slice *in,
-                                           const occlusion_place *place, vf32 range2, int side, int is_perspective, vf32 *top)
+/* What stands above the surface near enough to hide light: its offset, and how far up it is. */
+typedef struct occlusion_thing {
+    vf32 offset[3], up;
+    vmask counts;
+} occlusion_thing;
+
+static ALWAYS_INLINE occlusion_thing occlusion_thing_at(const occlusion_lanes *at, const occlusion_place *place, vf32 range2, int is_perspective)
 {
     vf32 zero = v_setf(0.0f), change = v_sub(place->depth, at->depth), right = place->right, down = place->down;
     if (is_perspective) {
         right = v_add(v_mul(right, place->depth), v_mul(at->ray[0], change));
         down = v_add(v_mul(down, place->depth), v_mul(at->ray[1], change));
     }
-    vf32 offset[3] = {right, down, change}, thickness = v_setf(plan->radius);
-    vf32 square = occlusion_dot(offset, offset), up = occlusion_dot(at->normal, offset), along = occlusion_dot(in->along, offset);
-    vmask counts = v_mand(v_ge(range2, square), v_gt(v_mul(up, up), v_mul(square, v_setf(E3D_OCCLUSION_SLACK))));
-    counts = v_mandnot(v_mand(counts, v_gt(up, zero)), v_eq(place->depth, zero));
-    vf32 leaning = v_mul(thickness, in->leaning);
+    occlusion_thing out = {.offset = {right, down, change}};
+    vf32 square = occlusion_dot(out.offset, out.offset);
+    out.up = occlusion_dot(at->normal, out.offset);
+    vmask rises = v_mand(v_gt(out.up, zero), v_gt(v_mul(out.up, out.up), v_mul(square, v_setf(E3D_OCCLUSION_SLACK))));
+    out.counts = v_mandnot(v_mand(rises, v_ge(range2, square)), v_eq(place->depth, zero));
+    return out;
+}
+
+/* The sectors that a thing hides; top is the angle of the highest thing before it. */
+static ALWAYS_INLINE vi32 occlusion_hidden(const e3d_occlusion_plan *plan, const occlusion_slice *in, const occlusion_thing *thing, int side, vf32 *top)
+{
+    vf32 zero = v_setf(0.0f), thickness = v_setf(plan->radius), along = occlusion_dot(in->along, thing->offset), leaning = v_mul(thickness, in->leaning);
     if (side) {
         along = occlusion_minus(along);
         leaning = occlusion_minus(leaning);
     }
-    vf32 front = occlusion_angle(up, along);
-    vf32 back = occlusion_angle(v_max(v_sub(up, v_mul(thickness, in->facing)), zero), v_add(along, leaning));
+    vf32 front = occlusion_angle(thing->up, along);
+    vf32 back = occlusion_angle(v_max(v_sub(thing->up, v_mul(thickness, in->facing)), zero), v_add(along, leaning));
     vf32 low = v_min(front, back), rise = v_max(v_sub(front, v_max(low, *top)), zero);
     vf32 high = v_min(v_add(front, v_mul(rise, v_setf(E3D_OCCLUSION_GAP))), v_setf(2.0f));
-    *top = v_self(counts, v_max(*top, front), *top);
+    *top = v_self(thing->counts, v_max(*top, front), *top);
     vi32 from = occlusion_sector(low), to = occlusion_sector(high), all = v_seti(E3D_OCCLUSION_SECTORS);
     vi32 sectors = side ? v_subi(occlusion_power(v_subi(all, from)), occlusion_power(v_subi(all, to)))
-                           : v_subi(occlusion_power(to), occlusion_power(from));
-    return v_seli(counts, sectors, v_seti(0));
+                        : v_subi(occlusion_power(to), occlusion_power(from));
+    return v_seli(thing->counts, sectors, v_seti(0));
 }
 
 /* Leaves out the sectors that the face itself hides. */
@@ -268,62 +271,47 @@ static ALWAYS_INLINE void occlusion_nothing(const e3d_occlusion_sites *here, int
     v_storef(here->share + x, zero);
 }
 
-/* Adds the sectors that are hidden to one side. */
-static ALWAYS_INLINE void occlusion_hide(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int x, int abreast, const occlusion_lanes *at,
-                                         const occlusion_slice *in, int side, int is_perspective, vi32 *hidden)
+/* The sectors that are hidden to one side. */
+static ALWAYS_INLINE vi32 occlusion_hidden_on(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at,
+                                              const occlusion_slice *in, int side, int is_perspective)
 {
-    occlusion_place places[E3D_OCCLUSION_TAPS][OCCLUSION_ABREAST];
-    vf32 top[OCCLUSION_ABREAST];
-    for (int j = 0; j < abreast; j++)
-        top[j] = v_setf(0.0f);
-    occlusion_look_around(plan, pattern, x, abreast, at, side, is_perspective, places);
-    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++)
-        for (int j = 0; j < abreast; j++) {
-            vf32 range2 = v_loadf(pattern->range2 + ((x + j * V_LANES) & (E3D_OCCLUSION_CELL - 1)));
-            hidden[j] = v_ori(hidden[j], occlusion_hidden(plan, &at[j], &in[j], &places[tap][j], range2, side, is_perspective, &top[j]));
-        }
+    occlusion_place places[E3D_OCCLUSION_TAPS];
+    vf32 top = v_setf(0.0f), range2 = v_loadf(pattern->range2 + lane);
+    vi32 hidden = v_seti(0);
+    occlusion_look_around(plan, pattern, lane, at, side, is_perspective, places);
+    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
+        occlusion_thing thing = occlusion_thing_at(at, &places[tap], range2, is_perspective);
+        if (v_any(thing.counts))
+            hidden = v_ori(hidden, occlusion_hidden(plan, in, &thing, side, &top));
+    }
+    return hidden;
 }
 
 /* Finds the sites x and so on of the middle one of three rows. */
-static ALWAYS_INLINE void occlusion_some(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row, int x, int abreast,
-                                         int is_perspective)
+static ALWAYS_INLINE void occlusion_some(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row, int x, int is_perspective)
 {
     const e3d_occlusion_pattern *pattern = &plan->rows[row & (E3D_OCCLUSION_CELL - 1)];
-    occlusion_lanes at[OCCLUSION_ABREAST];
-    occlusion_slice in[OCCLUSION_ABREAST];
-    vf32 zero = v_setf(0.0f), change[OCCLUSION_ABREAST][2];
-    vi32 hidden[OCCLUSION_ABREAST], none = v_seti(0);
-    vmask shows = v_mnot(v_eq(zero, zero));
-    for (int j = 0; j < abreast; j++) {
-        shows = v_mor(shows, v_mnot(v_eq(v_loadf(rows[1].near + x + j * V_LANES), zero)));
-        occlusion_nothing(&rows[1], x + j * V_LANES);
-    }
-    if (!v_any(shows))
+    int lane = x & (E3D_OCCLUSION_CELL - 1);
+    vf32 zero = v_setf(0.0f), change[2];
+    occlusion_nothing(&rows[1], x);
+    if (!v_any(v_mnot(v_eq(v_loadf(rows[1].near + x), zero))))
         return;
-    for (int j = 0; j < abreast; j++) {
-        int column = x + j * V_LANES;
-        at[j] = occlusion_surface(plan, &rows[1], row, column, is_perspective);
-        occlusion_face(plan, rows, column, &at[j], is_perspective, change[j]);
-        in[j] = occlusion_slice_of(pattern, column & (E3D_OCCLUSION_CELL - 1), &at[j]);
-        hidden[j] = none;
-    }
-    for (int side = 0; side < 2; side++)
-        occlusion_hide(plan, pattern, x, abreast, at, in, side, is_perspective, hidden);
-    for (int j = 0; j < abreast; j++) {
-        int lane = (x + j * V_LANES) & (E3D_OCCLUSION_CELL - 1);
-        vi32 found = occlusion_above_face(plan, pattern, lane, &at[j], &in[j], change[j], v_seli(at[j].shows, hidden[j], none), is_perspective);
-        if (v_any(v_gti(found, none)))
-            v_storef(rows[1].share + x + j * V_LANES, v_self(v_gti(found, none), occlusion_light(plan, &in[j], found), zero));
-    }
+    occlusion_lanes at = occlusion_surface(plan, &rows[1], row, x, is_perspective);
+    occlusion_face(plan, rows, x, &at, is_perspective, change);
+    occlusion_slice in = occlusion_slice_of(pattern, lane, &at);
+    vi32 none = v_seti(0), hidden = occlusion_hidden_on(plan, pattern, lane, &at, &in, 0, is_perspective);
+    hidden = v_ori(hidden, occlusion_hidden_on(plan, pattern, lane, &at, &in, 1, is_perspective));
+    hidden = v_seli(at.shows, hidden, none);
+    if (!v_any(v_gti(hidden, none)))
+        return;
+    hidden = occlusion_above_face(plan, pattern, lane, &at, &in, change, hidden, is_perspective);
+    v_storef(rows[1].share + x, v_self(v_gti(hidden, none), occlusion_light(plan, &in, hidden), zero));
 }
 
 static ALWAYS_INLINE void occlusion_row(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row, int is_perspective)
 {
-    int x = 0;
-    for (; x + (OCCLUSION_ABREAST - 1) * V_LANES < plan->width; x += OCCLUSION_ABREAST * V_LANES)
-        occlusion_some(plan, rows, row, x, OCCLUSION_ABREAST, is_perspective);
-    for (; x < plan->width; x += V_LANES)
-        occlusion_some(plan, rows, row, x, 1, is_perspective);
+    for (int x = 0; x < plan->width; x += V_LANES)
+        occlusion_some(plan, rows, row, x, is_perspective);
 }
 
 static void kernel_occlusion(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row)
@@ -420,11 +408,13 @@ static ALWAYS_INLINE void occlusion_add(const e3d_occlusion_sites *row, int x, f
     sums->weights = v_add(sums->weights, weight);
 }
 
-/* The visibility of every second pixel of a row. */
+/* The visibility of every second pixel of a row: of sites themselves, or of pixels to the right of, or below, sites. */
 static ALWAYS_INLINE vf32 occlusion_pixels(const e3d_occlusion_sites *rows, int x, int is_between, int is_below, vf32 near)
 {
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f);
     occlusion_sums sums = {zero, zero};
+    if (!is_between && !is_below)
+        return v_self(v_eq(near, zero), one, v_max(v_sub(one, v_loadf(rows[0].share + x)), zero));
     for (int down = 0; down <= is_below; down++)
         for (int right = 0; right <= is_between; right++)
             occlusion_add(&rows[down], x + right, 0.5f * (float)(is_between - 2 * right), 0.5f * (float)(is_below - 2 * down), near, &sums);

@@ -258,6 +258,8 @@ static float visibility_at(const sites *all, int32_t x, int32_t y)
     float near = nearness_of(all->picture, all->picture->depth[(size_t)y * (size_t)all->picture->width + (size_t)x]), sum = 0.0f, weights = 0.0f;
     if (near == 0.0f)
         return 1.0f;
+    if (x % E3D_OCCLUSION_STEP == 0 && y % E3D_OCCLUSION_STEP == 0)
+        return ref_max(1.0f - all->means[(size_t)(y / E3D_OCCLUSION_STEP) * (size_t)all->width + (size_t)(x / E3D_OCCLUSION_STEP)], 0.0f);
     for (int k = 0; k < 4; k++) {
         int32_t i = x / E3D_OCCLUSION_STEP + k % 2, j = y / E3D_OCCLUSION_STEP + k / 2;
         if ((k % 2 && x % 2 == 0) || (k / 2 && y % 2 == 0) || i >= all->width || j >= all->height)

@@ -1,7 +1,7 @@
 """Ambient occlusion: the fraction of ambient light that reaches each pixel.
 
-In: the picture's depths and normals, one sample per pixel, and its view. Out: a factor for each pixel, by which
-the core multiplies ambient light (docs/exactness, section 21).
+In: the picture's depths and normals, one sample per pixel, and its view. Out: a factor for each
+pixel, by which the core multiplies ambient light (docs/exactness, section 21).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-/* occlusion: finds the ambient occlusion of a picture of depths, band by band of rows (R125-R128).
- * In: depths, 0 where nothing shows. Out: the share of light from all around that reaches each pixel.
- * Always: the same bytes for any backend and number of threads: a pixel depends on depths alone, and its filtered value on
- * shares that are all found before. */
+/* occlusion: finds the ambient occlusion of a picture of depths and normals, band by band of rows (R125-R128, R180).
+ * In: depths, 0 where nothing shows; normals. Out: the share of light from all around that reaches each pixel.
+ * Always: the same bytes for any backend and number of threads: a site depends on depths and normals alone, and a pixel on
+ * sites that are all found before. */
 #include "e3d_occlusion.h"
 
 #include <stdatomic.h>
@@ -17,119 +17,139 @@
 #include "kernels/types/ambient_occlusion.h"
 #include "reference/post/ambient_occlusion.h"
 
-enum { BAND = 64, /* a thread takes so many rows at a time */
+enum { BAND = 32, /* a thread takes so many rows of sites at a time */
        SPAN = E3D_OCCLUSION_SPAN };
 
-/* The kinds of a worker's rows: SPAN rows of each. */
-typedef enum row_kind { NEARNESS = 0,
-                        MEANS,
-                        DEPTH,
-                        RESULT,
-                        KINDS } row_kind;
+/* The rows of sites in scratch memory, of which each array has as many as the picture. */
+typedef enum site_kind { DEPTH = 0,
+                         NEAR,
+                         ACROSS,
+                         DOWN,
+                         FIRM,
+                         SHARE,
+                         SITE_KINDS } site_kind;
 
-/* The data of both passes over the picture. */
+/* A worker's own rows: of pixels, and of sites, which are shorter: zeros, shares before they are filtered, those filtered. */
+typedef enum own_kind { PIXELS = 0,
+                        RESULT,
+                        ZEROS,
+                        SHARES,
+                        MEANS,
+                        OTHER_MEANS,
+                        OWN_KINDS } own_kind;
+
+/* The data of all passes over the picture. */
 typedef struct occlusion_job {
     const e3d_kernels *kernels;
     const e3d_occlusion_plan *plan;
     float *scratch, *visibility;
-    float *rows;   /* a worker's own rows: SPAN of each kind */
-    size_t pitch;  /* of such a row */
-    uint8_t *some; /* for each row of the picture whether anything in it is hidden */
+    float *own; /* each worker's own rows */
+    size_t own_pitch;
+    uint8_t *some; /* for each row of sites whether anything in it is hidden */
     atomic_int next;
 } occlusion_job;
+
+/* ---- sizes ---- */
+
+static int32_t sites_of(int32_t pixels) { return (pixels + 1) / E3D_OCCLUSION_STEP; }
+
+/* A row is rounded up to whole vectors, and has zeros before and after. */
+static size_t pitch_of(int32_t sites) { return ((size_t)sites + E3D_PAD - 1) / E3D_PAD * E3D_PAD + 2 * E3D_PAD; }
 
 /* ---- the plan ---- */
 
 static float absolute(float v) { return v < 0.0f ? 0.0f - v : v; }
 
 /* R126 */
-static void fill_pattern(const e3d_depth_picture *picture, int row, e3d_occlusion_pattern *out)
+static void fill_pattern(const e3d_depth_picture *picture, float radius, int row, e3d_occlusion_pattern *out)
 {
     float aspect = absolute(picture->down[0]) / absolute(picture->across[0]);
     for (int lane = 0; lane < E3D_OCCLUSION_CELL + E3D_PAD; lane++) {
-        int column = lane % E3D_OCCLUSION_CELL;
-        int number = e3d_occlusion_number(column, row);
-        float shift = (float)e3d_occlusion_shift(number) * 0x1p-6f, direction[2];
+        int number = e3d_occlusion_number(lane % E3D_OCCLUSION_CELL, row);
+        float direction[2];
         e3d_occlusion_direction(number, direction);
         out->step[0][lane] = direction[0] * aspect;
         out->step[1][lane] = direction[1];
         out->side[0][lane] = picture->across[0] < 0.0f ? 0.0f - direction[0] : direction[0];
         out->side[1][lane] = picture->down[0] < 0.0f ? 0.0f - direction[1] : direction[1];
-        for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
-            float t = ((float)tap + shift) * (1.0f / E3D_OCCLUSION_TAPS);
-            out->share[tap][lane] = t * t;
-        }
+        out->range2[lane] = (radius * radius) * (1.0f - (float)e3d_occlusion_lack(number) * 0x1p-8f);
+        for (int side = 0; side < 2; side++)
+            for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
+                float shift = (float)(2 * e3d_occlusion_shift(number, side) + 1) * 0x1p-7f;
+                out->share[side][tap][lane] = ((float)tap + shift) * (1.0f / E3D_OCCLUSION_TAPS);
+            }
     }
 }
 
-static void fill_plan(const e3d_depth_picture *picture, float radius, e3d_occlusion_plan *out)
+/* The light of each set of the sectors of a right angle: that without its highest sector, and that sector's. */
+static void fill_light(int quadrant, int32_t light[E3D_OCCLUSION_HALF])
 {
-    float pixel = absolute(picture->down[0]);
-    out->picture = picture;
-    out->over_across = (picture->is_perspective ? -1.0f : 1.0f) / picture->across[0];
-    out->over_down = (picture->is_perspective ? -1.0f : 1.0f) / picture->down[0];
-    out->fall = E3D_OCCLUSION_FALL / (radius * radius);
-    out->reach = radius / pixel;
-    out->over_step = 1.0f / (E3D_OCCLUSION_STEP * pixel);
+    light[0] = 0;
+    for (int k = 0; k < E3D_OCCLUSION_QUADRANT; k++) {
+        int sector = quadrant * E3D_OCCLUSION_QUADRANT + k;
+        int32_t its = E3D_OCCLUSION_LIGHT[1][sector] * 65536 + E3D_OCCLUSION_LIGHT[0][sector];
+        for (int set = 0; set < 1 << k; set++)
+            light[1 << k | set] = light[set] + its;
+    }
+}
+
+static void fill_plan(const e3d_depth_picture *picture, float radius, const float *scratch, e3d_occlusion_plan *out)
+{
+    *out = (e3d_occlusion_plan){.picture = picture, .width = sites_of(picture->width), .height = sites_of(picture->height)};
+    out->pitch = (int32_t)pitch_of(out->width);
+    out->depth = scratch + E3D_PAD;
+    for (int axis = 0; axis < 2; axis++) {
+        out->across[axis] = axis ? picture->across[1] : picture->across[0] * E3D_OCCLUSION_STEP;
+        out->down[axis] = axis ? picture->down[1] : picture->down[0] * E3D_OCCLUSION_STEP;
+    }
+    out->side = absolute(out->down[0]);
+    out->reach = radius / out->side;
+    out->radius = radius;
     for (int row = 0; row < E3D_OCCLUSION_CELL; row++)
-        fill_pattern(picture, row, &out->rows[row]);
+        fill_pattern(picture, radius, row, &out->rows[row]);
+    for (int quadrant = 0; quadrant < 2; quadrant++)
+        fill_light(quadrant, out->light[quadrant]);
 }
 
 /* ---- rows ---- */
 
-/* The first pixel of row y, among a worker's rows of one kind. */
-static float *own_row(const occlusion_job *job, int worker, row_kind kind, int32_t y)
+static float *own_row(const occlusion_job *job, int worker, own_kind kind)
 {
-    size_t number = ((size_t)worker * KINDS + (size_t)kind) * SPAN + (size_t)((y + SPAN) % SPAN);
-    return job->rows + number * job->pitch + E3D_PAD;
+    return job->own + ((size_t)worker * OWN_KINDS + (size_t)kind) * job->own_pitch + E3D_PAD;
 }
 
-/* Whether kernels, which work on whole vectors, neither read nor write beyond the end of a picture's row. */
-static int is_whole(const occlusion_job *job) { return job->plan->picture->width % E3D_PAD == 0; }
+/* Whether kernels, which work on pairs of whole vectors, neither read nor write beyond the end of a picture's row. */
+static int is_whole(const occlusion_job *job) { return job->plan->picture->width % (E3D_OCCLUSION_STEP * E3D_PAD) == 0; }
 
-/* Row y of a picture for kernels to read: the row itself, or a copy. Outside the picture it is 0. */
-static const float *row_to_read(const occlusion_job *job, int worker, const float *picture, row_kind kind, int32_t y)
-{
-    size_t width = (size_t)job->plan->picture->width;
-    float *own = own_row(job, worker, kind, y);
-    int outside = y < 0 || y >= job->plan->picture->height;
-    if (!outside && is_whole(job))
-        return picture + (size_t)y * width;
-    if (outside)
-        memset(own, 0, width * sizeof *own);
-    else
-        memcpy(own, picture + (size_t)y * width, width * sizeof *own);
-    return own;
-}
-
-/* The row of a picture for kernels to write: the row itself, or a worker's row, which is copied there afterwards. */
-static float *row_to_write(const occlusion_job *job, int worker, float *picture, int32_t y)
-{
-    return is_whole(job) ? picture + (size_t)y * (size_t)job->plan->picture->width : own_row(job, worker, RESULT, 0);
-}
-
-static void put_row(const occlusion_job *job, const float *row, float *picture, int32_t y)
-{
-    size_t width = (size_t)job->plan->picture->width;
-    if (!is_whole(job))
-        memcpy(picture + (size_t)y * width, row, width * sizeof *row);
-}
-
-/* Finds the nearness of a row; beyond the last pixel, depths and nearness stay 0. Returns the depths. */
-static const float *find_nearness(const occlusion_job *job, int worker, int32_t y)
+/* Row y of the depths for kernels to read: the row itself, or a copy, which is 0 after its last pixel. */
+static const float *depths_of(const occlusion_job *job, int worker, int32_t y)
 {
     const e3d_depth_picture *picture = job->plan->picture;
-    const float *depth = row_to_read(job, worker, picture->depth, DEPTH, y);
-    job->kernels->nearness(depth, picture->width, picture->is_perspective, own_row(job, worker, NEARNESS, y));
-    return depth;
+    const float *row = picture->depth + (size_t)y * (size_t)picture->width;
+    return is_whole(job) ? row : memcpy(own_row(job, worker, PIXELS), row, (size_t)picture->width * sizeof *row);
 }
 
-static e3d_occlusion_rows rows_around(const occlusion_job *job, int worker, int32_t y)
+static float *kept_row(const occlusion_job *job, site_kind kind, int32_t row)
 {
-    e3d_occlusion_rows rows = {.y = y};
-    for (int k = 0; k < SPAN; k++)
-        rows.nearness[k] = own_row(job, worker, NEARNESS, y + k - E3D_OCCLUSION_FILTER);
-    return rows;
+    size_t rows = (size_t)kind * (size_t)job->plan->height + (size_t)row;
+    return job->scratch + rows * (size_t)job->plan->pitch + E3D_PAD;
+}
+
+/* A row of sites; outside the picture, zeros. */
+static e3d_occlusion_sites sites_at(const occlusion_job *job, int worker, int32_t row)
+{
+    float *zeros = own_row(job, worker, ZEROS);
+    if (row < 0 || row >= job->plan->height)
+        return (e3d_occlusion_sites){zeros, zeros, {zeros, zeros}, zeros, zeros};
+    return (e3d_occlusion_sites){kept_row(job, DEPTH, row), kept_row(job, NEAR, row), {kept_row(job, ACROSS, row), kept_row(job, DOWN, row)}, kept_row(job, FIRM, row), kept_row(job, SHARE, row)};
+}
+
+/* Clears what of a row lies outside the picture. */
+static void clear_around(const occlusion_job *job, float *row)
+{
+    size_t width = (size_t)job->plan->width;
+    memset(row - E3D_PAD, 0, E3D_PAD * sizeof *row);
+    memset(row + width, 0, ((size_t)job->plan->pitch - E3D_PAD - width) * sizeof *row);
 }
 
 static int has_some(const float *row, int32_t width)
@@ -144,89 +164,114 @@ static int has_some(const float *row, int32_t width)
     return some != 0;
 }
 
-/* ---- the two passes ---- */
+/* ---- the passes ---- */
+
+/* Finds the depths and nearness of a band of rows of sites. */
+static void find_sites(const occlusion_job *job, int worker, int32_t first, int32_t end)
+{
+    for (int32_t row = first; row < end; row++) {
+        e3d_occlusion_sites sites = sites_at(job, worker, row);
+        for (int kind = 0; kind < SITE_KINDS; kind++)
+            clear_around(job, kept_row(job, (site_kind)kind, row));
+        job->kernels->occlusion_sites(depths_of(job, worker, row * E3D_OCCLUSION_STEP), job->plan->width, job->plan->picture->is_perspective, &sites);
+    }
+}
 
 /* Finds the shares of a band, and filters them along rows. */
 static void find_shares(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
-    int32_t width = job->plan->picture->width;
-    float *shares = own_row(job, worker, RESULT, 1);
-    find_nearness(job, worker, first - 1);
-    const float *next = find_nearness(job, worker, first);
-    for (int32_t y = first; y < end; y++) {
-        e3d_occlusion_rows rows = rows_around(job, worker, y);
-        rows.depth = next;
-        next = find_nearness(job, worker, y + 1);
-        job->kernels->occlusion(job->plan, &rows, shares);
-        rows.share[E3D_OCCLUSION_FILTER] = shares;
-        job->some[y] = (uint8_t)has_some(shares, width);
-        if (!job->some[y]) { /* the means are 0, too */
-            memset(job->scratch + (size_t)y * (size_t)width, 0, (size_t)width * sizeof *job->scratch);
-            continue;
-        }
-        float *out = row_to_write(job, worker, job->scratch, y);
-        job->kernels->occlusion_across(job->plan, &rows, out);
-        put_row(job, out, job->scratch, y);
+    for (int32_t row = first; row < end; row++) {
+        e3d_occlusion_sites rows[3] = {sites_at(job, worker, row - 1), sites_at(job, worker, row), sites_at(job, worker, row + 1)};
+        float *means = rows[1].share;
+        rows[1].share = own_row(job, worker, SHARES);
+        job->kernels->occlusion(job->plan, rows, row);
+        job->some[row] = (uint8_t)has_some(rows[1].share, job->plan->width);
+        if (job->some[row])
+            job->kernels->occlusion_across(job->plan, &rows[1], means);
+        else /* the means are 0, too */
+            memset(means, 0, (size_t)job->plan->width * sizeof *means);
     }
 }
 
-/* Whether anything is hidden in the rows around y. */
-static int has_some_around(const occlusion_job *job, int32_t y)
+/* Whether anything is hidden in the rows of sites from one to another. */
+static int has_some_in(const occlusion_job *job, int32_t first, int32_t last)
 {
-    for (int32_t row = y - E3D_OCCLUSION_FILTER; row <= y + E3D_OCCLUSION_FILTER; row++)
-        if (row >= 0 && row < job->plan->picture->height && job->some[row])
+    for (int32_t row = first; row <= last; row++)
+        if (row >= 0 && row < job->plan->height && job->some[row])
             return 1;
     return 0;
 }
 
-static void filter_row(const occlusion_job *job, int worker, int32_t y, const float *const *means)
+/* The row of sites with its shares filtered down the columns, unless they are known. */
+static e3d_occlusion_sites filtered(const occlusion_job *job, int worker, int32_t row, int is_known)
 {
-    e3d_occlusion_rows rows = rows_around(job, worker, y);
-    float *out = row_to_write(job, worker, job->visibility, y);
+    e3d_occlusion_sites around[SPAN], out = sites_at(job, worker, row);
+    if (row >= job->plan->height)
+        return out;
+    out.share = own_row(job, worker, row % 2 ? MEANS : OTHER_MEANS);
     for (int k = 0; k < SPAN; k++)
-        rows.share[k] = means[(y + k - E3D_OCCLUSION_FILTER + SPAN) % SPAN];
-    job->kernels->occlusion_down(job->plan, &rows, out);
-    put_row(job, out, job->visibility, y);
+        around[k] = sites_at(job, worker, row + k - E3D_OCCLUSION_FILTER);
+    if (!is_known)
+        job->kernels->occlusion_down(job->plan, around, out.share);
+    return out;
 }
 
-/* Filters the means of a band down columns. Rows are found when they are needed. */
+/* Writes row y of the picture, from the row of sites at or above it and that below; where they are NULL, all light arrives. */
+static void write_row(const occlusion_job *job, int worker, int32_t y, const e3d_occlusion_sites *rows)
+{
+    int32_t width = job->plan->picture->width;
+    float *row = job->visibility + (size_t)y * (size_t)width, *out = is_whole(job) ? row : own_row(job, worker, RESULT);
+    for (int32_t x = 0; x < width && !rows; x++)
+        row[x] = 1.0f;
+    if (rows)
+        job->kernels->occlusion_spread(job->plan, rows, depths_of(job, worker, y), y % E3D_OCCLUSION_STEP, out);
+    if (rows && out != row)
+        memcpy(row, out, (size_t)width * sizeof *row);
+}
+
+/* Filters a band of rows of sites down the columns, and writes its pixels. */
 static void filter(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
-    const float *means[SPAN];
-    int32_t known = first - E3D_OCCLUSION_FILTER, width = job->plan->picture->width;
-    for (int32_t y = first; y < end; y++) {
-        if (!has_some_around(job, y)) {
-            for (int32_t x = 0; x < width; x++)
-                job->visibility[(size_t)y * (size_t)width + (size_t)x] = 1.0f;
-            continue;
+    int32_t known = first - 1; /* the last row that is filtered */
+    for (int32_t row = first; row < end; row++) {
+        int is_hidden = has_some_in(job, row - E3D_OCCLUSION_FILTER, row + 1 + E3D_OCCLUSION_FILTER);
+        e3d_occlusion_sites rows[2];
+        for (int k = 0; k < 2 && is_hidden; k++) {
+            rows[k] = filtered(job, worker, row + k, row + k <= known);
+            known = row + k;
         }
-        known = known > y - E3D_OCCLUSION_FILTER ? known : y - E3D_OCCLUSION_FILTER;
-        for (; known <= y + E3D_OCCLUSION_FILTER; known++) {
-            find_nearness(job, worker, known);
-            means[(known + SPAN) % SPAN] = row_to_read(job, worker, job->scratch, MEANS, known);
-        }
-        filter_row(job, worker, y, means);
+        for (int32_t y = row * E3D_OCCLUSION_STEP; y < (row + 1) * E3D_OCCLUSION_STEP && y < job->plan->picture->height; y++)
+            write_row(job, worker, y, is_hidden ? rows : NULL);
     }
 }
 
 static void each_band(occlusion_job *job, int worker, void (*pass)(const occlusion_job *, int, int32_t, int32_t))
 {
-    int32_t height = job->plan->picture->height;
+    int32_t height = job->plan->height;
     for (int band = atomic_fetch_add(&job->next, 1); band * BAND < height; band = atomic_fetch_add(&job->next, 1)) {
         int32_t end = (band + 1) * BAND;
         pass(job, worker, band * BAND, end < height ? end : height);
     }
 }
 
-static void find_some(void *job, int worker) { each_band(job, worker, find_shares); }
+static void find_some_sites(void *job, int worker) { each_band(job, worker, find_sites); }
+
+static void find_some_shares(void *job, int worker) { each_band(job, worker, find_shares); }
 
 static void filter_some(void *job, int worker) { each_band(job, worker, filter); }
 
 /* ---- the entry ---- */
 
+static int is_size(int32_t width, int32_t height) { return width >= 1 && height >= 1 && width <= E3D_MAX_SIZE && height <= E3D_MAX_SIZE; }
+
+size_t e3d_occlusion_scratch(int32_t width, int32_t height)
+{
+    return is_size(width, height) ? SITE_KINDS * (size_t)sites_of(height) * pitch_of(sites_of(width)) : 0;
+}
+
 static int is_valid(const e3d_depth_picture *p, float radius)
 {
-    if (p->width < 1 || p->height < 1 || p->width > E3D_MAX_SIZE || p->height > E3D_MAX_SIZE || !p->depth)
+    if (!is_size(p->width, p->height) || !p->depth || !p->normal)
         return 0;
     return p->across[0] != 0.0f && p->down[0] != 0.0f && radius > 0.0f;
 }
@@ -234,21 +279,21 @@ static int is_valid(const e3d_depth_picture *p, float radius)
 static e3d_status find(const e3d_kernels *kernels, int32_t threads, const e3d_depth_picture *picture, float radius, float *scratch,
                        float *visibility)
 {
+    static void (*const passes[])(void *, int) = {find_some_sites, find_some_shares, filter_some};
     e3d_occlusion_plan plan;
     occlusion_job job = {.kernels = kernels, .plan = &plan, .scratch = scratch, .visibility = visibility};
-    job.pitch = (size_t)picture->width + 2 * E3D_PAD;
-    job.rows = calloc((size_t)threads * KINDS * SPAN * job.pitch, sizeof *job.rows);
-    job.some = calloc((size_t)picture->height, sizeof *job.some);
-    if (job.rows && job.some) {
-        fill_plan(picture, radius, &plan);
-        e3d_pool_run(threads, find_some, &job);
+    fill_plan(picture, radius, scratch, &plan);
+    job.own_pitch = E3D_OCCLUSION_STEP * (size_t)plan.pitch;
+    job.own = calloc((size_t)threads * OWN_KINDS * job.own_pitch, sizeof *job.own);
+    job.some = calloc((size_t)plan.height, sizeof *job.some);
+    int has_memory = job.own && job.some;
+    for (size_t k = 0; k < sizeof passes / sizeof *passes && has_memory; k++) {
         atomic_store(&job.next, 0);
-        e3d_pool_run(threads, filter_some, &job);
+        e3d_pool_run(threads, passes[k], &job);
     }
-    e3d_status status = job.rows && job.some ? E3D_OK : E3D_OUT_OF_MEMORY;
-    free(job.rows);
+    free(job.own);
     free(job.some);
-    return status;
+    return has_memory ? E3D_OK : E3D_OUT_OF_MEMORY;
 }
 
 e3d_status e3d_find_occlusion(e3d_backend backend, int32_t threads, const e3d_depth_picture *picture, float radius, float *scratch,
@@ -256,10 +301,8 @@ e3d_status e3d_find_occlusion(e3d_backend backend, int32_t threads, const e3d_de
 {
     if (!is_valid(picture, radius))
         return E3D_INVALID_ARGUMENT;
-    if (backend == E3D_BACKEND_SCALAR) {
-        e3d_reference_occlusion(picture, radius, scratch, visibility);
-        return E3D_OK;
-    }
+    if (backend == E3D_BACKEND_SCALAR)
+        return e3d_reference_occlusion(picture, radius, visibility);
     const e3d_kernels *kernels = e3d_kernels_for(backend);
     if (!kernels)
         return E3D_UNSUPPORTED_BACKEND;

@@ -22,7 +22,7 @@ from . import options as limits
 from ._output_pool import shapes_of
 
 #: Bytes allowed per pixel in addition. Bloom and ambient occlusion together need fewer.
-BYTES_A_PIXEL = 32
+BYTES_A_PIXEL = 48
 
 _FLOAT = 4
 _KEPT_SAMPLE = 8  # a depth and an ID: csrc/frame/tile/kept.c

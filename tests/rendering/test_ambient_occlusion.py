@@ -123,14 +123,14 @@ def test_far_things_behind_a_silhouette_have_no_halo():
 
 
 def test_a_mirrored_camera_sees_the_mirrored_picture():
-    """But for the pattern of directions, which isn't mirrored: a few codes of 255."""
+    """But for the pattern of sites, which isn't mirrored: a few codes, but on strips of a pixel."""
     scene = corner()
     scene.add(e3d.box(0.4), translation=(0.3, 0.2, 0.4))
     camera, pose = CAMERAS["perspective"]
     there = visible(scene, (camera, pose), radius=0.5).astype(int)
     mirrored = visible(scene, (camera, pose @ np.diag([-1.0, 1, 1, 1])), radius=0.5).astype(int)
     difference = np.abs(mirrored[:, ::-1] - there)
-    assert np.median(difference) == 0 and (difference > 12).mean() < 0.01
+    assert np.median(difference) == 0 and (difference > 12).mean() < 0.015
 
 
 def test_a_scaled_camera_does_not_change_the_radius():

@@ -1,4 +1,4 @@
-/* occlusion: finds for each pixel how much ambient light near surfaces block (R125-R128). */
+/* occlusion: finds for each site how much ambient light near surfaces block, and from sites for each pixel (R125-R128, R180). */
 #pragma once
 
 #include "base/always_inline.h"
@@ -9,279 +9,434 @@
 
 enum { OCCLUSION_MIDDLE = E3D_OCCLUSION_FILTER };
 
-/* The surface in a pixel: its place, and its normal (g, h, -w), which isn't of unit length. */
+/* The surface in a site (R126). */
 typedef struct occlusion_lanes {
-    vf32 x, y, depth, m, ray[2]; /* x, y: of the pixel; ray: X and Y of R125 */
-    vf32 g, h, w, length2;       /* length2: the squared length of the normal */
-    vf32 over_length2;
+    vf32 x, y, depth, near, ray[2];
+    vf32 normal[3], facing;
+    vmask shows; /* something with a normal */
 } occlusion_lanes;
 
-static ALWAYS_INLINE vf32 occlusion_scale(vf32 depth, int is_perspective) { return is_perspective ? depth : v_setf(1.0f); }
+/* The plane through the line of sight in which a site looks (R126). */
+typedef struct occlusion_slice {
+    vf32 step[2], facing, leaning, along[3], scale;
+} occlusion_slice;
 
 static ALWAYS_INLINE vf32 occlusion_abs(vf32 v) { return v_asf(v_andi(v_asi(v), v_seti(0x7FFFFFFF))); }
 
+static ALWAYS_INLINE vf32 occlusion_minus(vf32 v) { return v_sub(v_setf(0.0f), v); }
+
+static ALWAYS_INLINE vf32 occlusion_dot(const vf32 a[3], const vf32 b[3])
+{
+    return v_add(v_add(v_mul(a[0], b[0]), v_mul(a[1], b[1])), v_mul(a[2], b[2]));
+}
+
+/* 2^n of 0 to 30, as an integer. */
+static ALWAYS_INLINE vi32 occlusion_power(vi32 n) { return v_trunc(v_asf(v_shl(v_addi(n, v_seti(127)), 23))); }
+
+/* The sectors below one. */
+static ALWAYS_INLINE vi32 occlusion_below(vi32 sector) { return v_subi(occlusion_power(sector), v_seti(1)); }
+
 /* R125: nearness, which is affine over a plane on the screen. */
-static void kernel_nearness(const float *depth, int count, int is_perspective, float *out)
+static ALWAYS_INLINE vf32 occlusion_nearness(vf32 depth, int is_perspective)
 {
-    vf32 zero = v_setf(0.0f), one = v_setf(1.0f);
-    for (int x = 0; x < count; x += V_LANES) {
-        vf32 d = v_loadf(depth + x);
-        if (is_perspective)
-            d = v_self(v_eq(d, zero), zero, v_div(one, d));
-        v_storef(out + x, d);
+    vf32 zero = v_setf(0.0f);
+    return is_perspective ? v_self(v_eq(depth, zero), zero, v_div(v_setf(1.0f), depth)) : depth;
+}
+
+static void kernel_occlusion_sites(const float *depth, int width, int is_perspective, const e3d_occlusion_sites *out)
+{
+    for (int x = 0; x < width; x += V_LANES) {
+        vf32 at_sites, between;
+        v_split(v_loadf(depth + 2 * x), v_loadf(depth + 2 * x + V_LANES), &at_sites, &between);
+        v_storef(out->depth + x, at_sites);
+        v_storef(out->near + x, occlusion_nearness(at_sites, is_perspective));
     }
 }
 
-/* R126: the change of nearness from pixel to pixel, towards the neighbour to which it changes less. */
-static ALWAYS_INLINE vf32 occlusion_change(vf32 before, vf32 here, vf32 behind)
+/* ---- surfaces (R126) ---- */
+
+/* The normals of sites, which towards the row's end are those of its last pixel. They are read for the first time: what the
+ * next sites need is fetched ahead. */
+static ALWAYS_INLINE void occlusion_normals(const e3d_depth_picture *p, int row, int x, vf32 out[3])
 {
-    vf32 zero = v_setf(0.0f), none = v_setf(E3D_OCCLUSION_NO_CHANGE), back = v_sub(here, before), on = v_sub(behind, here);
-    vf32 back_size = v_self(v_eq(before, zero), none, occlusion_abs(back));
-    vf32 on_size = v_self(v_eq(behind, zero), none, occlusion_abs(on));
-    vf32 change = v_self(v_ge(back_size, on_size), on, back);
-    return v_self(v_ge(v_min(back_size, on_size), none), zero, change);
+    enum { SITE = 3 * E3D_OCCLUSION_STEP,
+           LINE = 16,
+           AHEAD = 64 };
+    const float *first = p->normal + SITE * ((size_t)row * (size_t)p->width);
+    vi32 column = v_mini(v_shl(v_addi(v_seti(x), v_iota()), 1), v_seti(p->width - 1));
+    vi32 place = v_addi(v_addi(column, column), column);
+    if (2 * (x + AHEAD) < p->width)
+        for (int k = 0; k < SITE * V_LANES; k += LINE)
+            __builtin_prefetch(first + SITE * (x + AHEAD) + k);
+    for (int c = 0; c < 3; c++)
+        out[c] = v_asf(v_gatheri(first + c, place));
+    out[2] = occlusion_minus(out[2]);
 }
 
-static ALWAYS_INLINE occlusion_lanes occlusion_surface(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, int x,
-                                                       int is_perspective)
+static ALWAYS_INLINE occlusion_lanes occlusion_surface(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *here, int row, int x, int is_perspective)
 {
-    const e3d_depth_picture *p = plan->picture;
-    const float *here = rows->nearness[OCCLUSION_MIDDLE] + x, *above = rows->nearness[OCCLUSION_MIDDLE - 1] + x,
-                *below = rows->nearness[OCCLUSION_MIDDLE + 1] + x;
-    occlusion_lanes at = {.x = v_float(v_addi(v_seti(x), v_iota())), .y = v_setf((float)rows->y), .depth = v_loadf(rows->depth + x)};
-    vf32 near = v_loadf(here), one = v_setf(1.0f);
-    at.m = occlusion_scale(at.depth, is_perspective);
-    at.ray[0] = v_add(v_mul(v_setf(p->across[0]), at.x), v_setf(p->across[1]));
-    at.ray[1] = v_add(v_mul(v_setf(p->down[0]), at.y), v_setf(p->down[1]));
-    at.g = v_mul(occlusion_change(v_loadf(here - 1), near, v_loadf(here + 1)), v_setf(plan->over_across));
-    at.h = v_mul(occlusion_change(v_loadf(above), near, v_loadf(below)), v_setf(plan->over_down));
-    at.w = one;
+    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), normal[3];
+    occlusion_lanes at = {.x = v_float(v_addi(v_seti(x), v_iota())), .y = v_setf((float)row), .ray = {zero, zero}};
+    at.depth = v_loadf(here->depth + x);
+    at.near = v_loadf(here->near + x);
+    occlusion_normals(plan->picture, row, x, normal);
     if (is_perspective) {
-        at.g = v_mul(at.g, at.depth);
-        at.h = v_mul(at.h, at.depth);
-        at.w = v_add(v_add(one, v_mul(at.ray[0], at.g)), v_mul(at.ray[1], at.h));
+        at.ray[0] = v_add(v_mul(v_setf(plan->across[0]), at.x), v_setf(plan->across[1]));
+        at.ray[1] = v_add(v_mul(v_setf(plan->down[0]), at.y), v_setf(plan->down[1]));
     }
-    at.length2 = v_add(v_add(v_mul(at.g, at.g), v_mul(at.h, at.h)), v_mul(at.w, at.w));
-    at.over_length2 = v_div(one, at.length2);
+    vf32 length2 = occlusion_dot(normal, normal), scale = v_div(one, v_sqrt(length2));
+    for (int c = 0; c < 3; c++)
+        at.normal[c] = v_mul(normal[c], scale);
+    vf32 ray[3] = {at.ray[0], at.ray[1], one};
+    at.facing = occlusion_minus(occlusion_dot(at.normal, ray));
+    at.shows = v_mand(v_mnot(v_eq(at.depth, zero)), v_gt(length2, zero));
     return at;
 }
 
-/* Vectors are interleaved in short steps, since within one vector most operations would wait for those before. */
-enum { OCCLUSION_SIDE = 2 };
+/* The change of nearness towards the neighbour that lies best on the plane of the normal. */
+static ALWAYS_INLINE vf32 occlusion_change(const occlusion_lanes *at, vf32 before, vf32 behind, vf32 ideal, vf32 firm)
+{
+    vf32 zero = v_setf(0.0f), none = v_setf(E3D_OCCLUSION_NO_CHANGE), back = v_sub(at->near, before), on = v_sub(behind, at->near);
+    vf32 off_back = v_self(v_eq(before, zero), none, occlusion_abs(v_sub(back, ideal)));
+    vf32 off_on = v_self(v_eq(behind, zero), none, occlusion_abs(v_sub(on, ideal)));
+    vf32 change = v_self(v_gt(off_back, off_on), on, back);
+    return v_self(v_lt(v_mul(v_min(off_back, off_on), firm), v_setf(1.0f)), change, ideal);
+}
 
-/* What a pixel sees at one place: the offset to the right and down at a depth of 1, and the depth. */
+/* Finds the plane of the face, as changes of nearness, and stores it. */
+static ALWAYS_INLINE void occlusion_face(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int x, const occlusion_lanes *at,
+                                         int is_perspective, vf32 change[2])
+{
+    const e3d_occlusion_sites *above = &rows[0], *here = &rows[1], *below = &rows[2];
+    vf32 zero = v_setf(0.0f), least = v_setf(E3D_OCCLUSION_LEAST_FACING), scale = v_setf(1.0f);
+    if (is_perspective)
+        scale = occlusion_minus(at->near);
+    vf32 facing = v_self(v_lt(occlusion_abs(at->facing), least), least, at->facing);
+    vf32 firm = v_div(occlusion_abs(facing), v_mul(v_setf(plan->side), occlusion_abs(scale)));
+    vf32 along_row = v_div(v_mul(scale, v_mul(at->normal[0], v_setf(plan->across[0]))), facing);
+    vf32 along_column = v_div(v_mul(scale, v_mul(at->normal[1], v_setf(plan->down[0]))), facing);
+    change[0] = occlusion_change(at, v_loadf(here->near + x - 1), v_loadf(here->near + x + 1), along_row, firm);
+    change[1] = occlusion_change(at, v_loadf(above->near + x), v_loadf(below->near + x), along_column, firm);
+    for (int axis = 0; axis < 2; axis++) {
+        change[axis] = v_self(at->shows, change[axis], zero);
+        v_storef(here->change[axis] + x, change[axis]);
+    }
+    v_storef(here->firm + x, v_self(at->shows, firm, zero));
+}
+
+/* ---- slices (R126) ---- */
+
+static ALWAYS_INLINE occlusion_slice occlusion_slice_of(const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at)
+{
+    vf32 one = v_setf(1.0f), side_x = v_loadf(pattern->side[0] + lane), side_y = v_loadf(pattern->side[1] + lane);
+    occlusion_slice in = {.step = {v_loadf(pattern->step[0] + lane), v_loadf(pattern->step[1] + lane)}};
+    vf32 ray2 = v_add(v_add(v_mul(at->ray[0], at->ray[0]), v_mul(at->ray[1], at->ray[1])), one), length = v_sqrt(ray2), over = v_div(one, length);
+    vf32 q = v_add(v_mul(at->ray[0], side_x), v_mul(at->ray[1], side_y)), rest = v_sub(ray2, v_mul(q, q));
+    vf32 scale = v_div(one, v_sqrt(v_mul(ray2, rest))), ray[3] = {at->ray[0], at->ray[1], one};
+    vf32 away[3] = {v_mul(v_sub(v_mul(side_x, ray2), v_mul(at->ray[0], q)), scale),
+                    v_mul(v_sub(v_mul(side_y, ray2), v_mul(at->ray[1], q)), scale), v_mul(occlusion_minus(q), scale)};
+    in.facing = v_mul(at->facing, over);
+    in.leaning = occlusion_dot(at->normal, away);
+    for (int c = 0; c < 3; c++)
+        in.along[c] = v_add(v_mul(in.facing, away[c]), v_mul(in.leaning, v_mul(ray[c], over)));
+    in.scale = v_mul(v_div(length, rest), v_setf(E3D_OCCLUSION_UNIT));
+    return in;
+}
+
+/* ---- sectors (R127) ---- */
+
+/* What a site sees at one place: the offset to the right and down at a depth of 1, and the depth. */
 typedef struct occlusion_place {
     vf32 right, down, depth;
 } occlusion_place;
 
-static ALWAYS_INLINE occlusion_place occlusion_look(const e3d_depth_picture *p, const occlusion_lanes *at, vf32 away, vf32 step_x, vf32 step_y)
+static ALWAYS_INLINE occlusion_place occlusion_look(const e3d_occlusion_plan *plan, const occlusion_lanes *at, vf32 step_x, vf32 step_y)
 {
     vf32 zero = v_setf(0.0f);
-    vf32 x = v_min(v_max(v_add(at->x, v_mul(away, step_x)), zero), v_setf((float)(p->width - 1)));
-    vf32 y = v_min(v_max(v_add(at->y, v_mul(away, step_y)), zero), v_setf((float)(p->height - 1)));
+    vf32 x = v_min(v_max(v_add(at->x, step_x), zero), v_setf((float)(plan->width - 1)));
+    vf32 y = v_min(v_max(v_add(at->y, step_y), zero), v_setf((float)(plan->height - 1)));
     vi32 column = v_rint(x), row = v_rint(y);
-    return (occlusion_place){v_mul(v_setf(p->across[0]), v_sub(v_float(column), at->x)), v_mul(v_setf(p->down[0]), v_sub(v_float(row), at->y)),
-                             v_asf(v_gatheri(p->depth, v_addi(v_muli(row, v_seti(p->width)), column)))};
+    return (occlusion_place){v_mul(v_setf(plan->across[0]), v_sub(v_float(column), at->x)), v_mul(v_setf(plan->down[0]), v_sub(v_float(row), at->y)),
+                             v_asf(v_gatheri(plan->depth, v_addi(v_muli(row, v_seti(plan->pitch)), column)))};
 }
 
-/* R127: the squared sine of the angle by which a place stands above the surface, and its weight, which falls with the
- * distance. */
-static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const occlusion_lanes *at, const occlusion_place *place,
-                                         int is_perspective, vf32 *counts)
+/* Looks at all places to one side, before anything is found of them: lookups take long, and don't wait for each other. */
+static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at,
+                                                int side, int is_perspective, occlusion_place out[E3D_OCCLUSION_TAPS])
 {
-    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), depth = place->depth;
-    vf32 m = occlusion_scale(depth, is_perspective), change = v_sub(depth, at->depth);
-    vf32 right = v_mul(place->right, m), down = v_mul(place->down, m);
+    vf32 reach = v_setf(plan->reach);
+    if (is_perspective)
+        reach = v_mul(reach, at->near);
+    reach = v_min(v_max(reach, v_setf(0.0f)), v_setf((float)E3D_OCCLUSION_REACH));
+    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
+        vf32 away = v_add(v_mul(reach, v_loadf(pattern->share[side][tap] + lane)), v_setf(E3D_OCCLUSION_START));
+        vf32 step_x = v_mul(away, v_loadf(pattern->step[0] + lane)), step_y = v_mul(away, v_loadf(pattern->step[1] + lane));
+        out[tap] = side ? occlusion_look(plan, at, occlusion_minus(step_x), occlusion_minus(step_y)) : occlusion_look(plan, at, step_x, step_y);
+    }
+}
+
+/* What is like the angle of a direction above the surface, 1 for a right angle and 2 for two. */
+static ALWAYS_INLINE vf32 occlusion_angle(vf32 up, vf32 along)
+{
+    vf32 zero = v_setf(0.0f), part = v_max(v_div(up, v_max(v_add(up, occlusion_abs(along)), v_setf(E3D_OCCLUSION_LEAST))), zero);
+    return v_self(v_ge(along, zero), part, v_sub(v_setf(2.0f), part));
+}
+
+static ALWAYS_INLINE vi32 occlusion_sector(vf32 angle) { return v_rint(v_mul(angle, v_setf((float)E3D_OCCLUSION_QUADRANT))); }
+
+/* What stands above the surface near enough to hide light: its offset, and how far up it is. */
+typedef struct occlusion_thing {
+    vf32 offset[3], up;
+    vmask counts;
+} occlusion_thing;
+
+static ALWAYS_INLINE occlusion_thing occlusion_thing_at(const occlusion_lanes *at, const occlusion_place *place, vf32 range2, int is_perspective)
+{
+    vf32 zero = v_setf(0.0f), change = v_sub(place->depth, at->depth), right = place->right, down = place->down;
     if (is_perspective) {
-        right = v_add(right, v_mul(at->ray[0], change));
-        down = v_add(down, v_mul(at->ray[1], change));
+        right = v_add(v_mul(right, place->depth), v_mul(at->ray[0], change));
+        down = v_add(v_mul(down, place->depth), v_mul(at->ray[1], change));
     }
-    vf32 square = v_add(v_add(v_mul(right, right), v_mul(down, down)), v_mul(change, change));
-    vf32 above = v_max(v_sub(v_add(v_mul(at->g, right), v_mul(at->h, down)), v_mul(at->w, change)), zero);
-    vf32 rise = v_div(v_mul(v_mul(above, above), at->over_length2), v_max(square, v_setf(0x1p-126f)));
-    *counts = v_min(v_max(v_sub(v_setf(E3D_OCCLUSION_FALL), v_mul(square, v_setf(plan->fall))), zero), one);
-    return v_self(v_eq(depth, zero), zero, v_min(one, v_sub(rise, v_setf(E3D_OCCLUSION_SLACK))));
+    occlusion_thing out = {.offset = {right, down, change}};
+    vf32 square = occlusion_dot(out.offset, out.offset);
+    out.up = occlusion_dot(at->normal, out.offset);
+    vmask rises = v_mand(v_gt(out.up, zero), v_gt(v_mul(out.up, out.up), v_mul(square, v_setf(E3D_OCCLUSION_SLACK))));
+    out.counts = v_mandnot(v_mand(rises, v_ge(range2, square)), v_eq(place->depth, zero));
+    return out;
 }
 
-/* R127: the share of light on one side of the direction that a horizon hides. */
-static ALWAYS_INLINE vf32 occlusion_share(const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at, vf32 horizon,
-                                          int is_perspective)
+/* The sectors that a thing hides; top is the angle of the highest thing before it. */
+static ALWAYS_INLINE vi32 occlusion_hidden(const e3d_occlusion_plan *plan, const occlusion_slice *in, const occlusion_thing *thing, int side, vf32 *top)
 {
-    vf32 one = v_setf(1.0f), zero = v_setf(0.0f), side_x = v_loadf(pattern->side[0] + lane), side_y = v_loadf(pattern->side[1] + lane);
-    vf32 along = v_add(v_mul(at->g, side_x), v_mul(at->h, side_y)), ray2 = one, rest = one;
+    vf32 zero = v_setf(0.0f), thickness = v_setf(plan->radius), along = occlusion_dot(in->along, thing->offset), leaning = v_mul(thickness, in->leaning);
+    if (side) {
+        along = occlusion_minus(along);
+        leaning = occlusion_minus(leaning);
+    }
+    vf32 front = occlusion_angle(thing->up, along);
+    vf32 back = occlusion_angle(v_max(v_sub(thing->up, v_mul(thickness, in->facing)), zero), v_add(along, leaning));
+    vf32 low = v_min(front, back), rise = v_max(v_sub(front, v_max(low, *top)), zero);
+    vf32 high = v_min(v_add(front, v_mul(rise, v_setf(E3D_OCCLUSION_GAP))), v_setf(2.0f));
+    *top = v_self(thing->counts, v_max(*top, front), *top);
+    vi32 from = occlusion_sector(low), to = occlusion_sector(high), all = v_seti(E3D_OCCLUSION_SECTORS);
+    vi32 sectors = side ? v_subi(occlusion_power(v_subi(all, from)), occlusion_power(v_subi(all, to)))
+                        : v_subi(occlusion_power(to), occlusion_power(from));
+    return v_seli(thing->counts, sectors, v_seti(0));
+}
+
+/* Leaves out the sectors that the face itself hides. */
+static ALWAYS_INLINE vi32 occlusion_above_face(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane,
+                                               const occlusion_lanes *at, const occlusion_slice *in, const vf32 changes[2], vi32 hidden, int is_perspective)
+{
+    vf32 zero = v_setf(0.0f), change = v_add(v_mul(changes[0], in->step[0]), v_mul(changes[1], in->step[1])), scale = v_setf(plan->side);
     if (is_perspective) {
-        ray2 = v_add(v_add(v_mul(at->ray[0], at->ray[0]), v_mul(at->ray[1], at->ray[1])), one);
-        vf32 q = v_add(v_mul(at->ray[0], side_x), v_mul(at->ray[1], side_y));
-        along = v_add(v_mul(along, ray2), q);
-        rest = v_sub(ray2, v_mul(q, q));
+        scale = v_mul(scale, at->near);
+        change = occlusion_minus(change);
     }
-    vf32 scale2 = v_mul(v_mul(at->length2, ray2), rest), scale = v_div(one, v_sqrt(scale2)), facing = v_sqrt(rest);
-    vf32 s2 = v_min(v_div(v_mul(horizon, scale2), v_add(rest, v_mul(along, along))), one), s = v_sqrt(s2);
-    vf32 a = v_add(v_setf(E3D_ARC_A0), v_mul(v_setf(E3D_ARC_A1), s)), b = v_add(v_setf(E3D_ARC_B0), v_mul(v_setf(E3D_ARC_B1), s));
-    vf32 arc = v_mul(v_mul(s2, s), v_add(a, v_mul(v_sqrt(v_sub(one, s)), b)));
-    return v_min(v_max(v_mul(v_add(v_mul(facing, s2), v_mul(along, arc)), scale), zero), v_setf(E3D_OCCLUSION_MOST));
+    vf32 face[3] = {v_add(v_mul(v_loadf(pattern->side[0] + lane), scale), v_mul(at->ray[0], change)),
+                    v_add(v_mul(v_loadf(pattern->side[1] + lane), scale), v_mul(at->ray[1], change)), change};
+    vf32 up = occlusion_dot(at->normal, face), size = occlusion_abs(up), along = occlusion_abs(occlusion_dot(in->along, face));
+    vf32 part = v_max(v_div(size, v_max(v_add(size, along), v_setf(E3D_OCCLUSION_LEAST))), zero);
+    vi32 count = v_rint(v_add(v_mul(part, v_setf((float)E3D_OCCLUSION_QUADRANT)), v_setf(E3D_OCCLUSION_ROUNDING)));
+    vi32 above = v_subi(v_seti(0), occlusion_power(count)), below = occlusion_below(v_subi(v_seti(E3D_OCCLUSION_SECTORS), count));
+    return v_andi(hidden, v_seli(v_gt(up, zero), above, below));
 }
 
-/* R127: finds what pixels see at their places. */
-static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int x, int side,
-                                                const occlusion_lanes *at, const vf32 *near, int is_perspective,
-                                                occlusion_place out[][OCCLUSION_SIDE])
+/* The light of sectors, as the table has it. */
+static ALWAYS_INLINE vi32 occlusion_light_sum(const e3d_occlusion_plan *plan, vi32 sectors)
 {
-    vf32 reach[OCCLUSION_SIDE];
-    for (int j = 0; j < side; j++) {
-        reach[j] = v_setf(plan->reach);
-        if (is_perspective)
-            reach[j] = v_max(v_mul(reach[j], near[j]), v_setf(0.0f));
-        reach[j] = v_min(reach[j], v_setf((float)E3D_OCCLUSION_REACH));
-    }
-    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++)
-        for (int j = 0; j < side; j++) {
-            int lane = (x + j * V_LANES) & (E3D_OCCLUSION_CELL - 1);
-            vf32 away = v_add(v_mul(reach[j], v_loadf(pattern->share[tap] + lane)), v_setf(1.0f));
-            out[tap][j] = occlusion_look(plan->picture, &at[j], away, v_loadf(pattern->step[0] + lane), v_loadf(pattern->step[1] + lane));
-        }
+    return v_addi(v_gatheri(plan->light[0], v_andi(sectors, v_seti(E3D_OCCLUSION_HALF - 1))),
+                  v_gatheri(plan->light[1], v_shr(sectors, E3D_OCCLUSION_QUADRANT)));
 }
 
-/* R127: raises the horizon from place to place, by the weight of each. */
-static ALWAYS_INLINE void occlusion_horizon(const e3d_occlusion_plan *plan, int side, const occlusion_lanes *at,
-                                            occlusion_place places[][OCCLUSION_SIDE], int is_perspective, vf32 *sum)
+/* The light of sectors, which lie beyond the line of sight from a sector on. */
+static ALWAYS_INLINE vf32 occlusion_light(const e3d_occlusion_plan *plan, const occlusion_slice *in, vi32 sectors)
 {
-    vf32 zero = v_setf(0.0f), horizon[OCCLUSION_SIDE];
-    for (int j = 0; j < side; j++)
-        horizon[j] = sum[j] = zero;
-    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++)
-        for (int j = 0; j < side; j++) {
-            vf32 counts, rise = occlusion_rise(plan, &at[j], &places[tap][j], is_perspective, &counts);
-            sum[j] = v_add(sum[j], v_mul(v_max(v_sub(rise, horizon[j]), zero), counts));
-            /* What lies too far in front hides nothing behind it */
-            horizon[j] = v_max(v_self(v_gt(counts, zero), rise, zero), horizon[j]);
-        }
+    vf32 zero = v_setf(0.0f);
+    vi32 beyond = occlusion_sector(occlusion_angle(v_max(in->facing, zero), occlusion_minus(in->leaning)));
+    vi32 near = v_andi(sectors, occlusion_below(beyond)), far = v_subi(sectors, near);
+    vi32 sum = v_subi(occlusion_light_sum(plan, near), occlusion_light_sum(plan, far));
+    vi32 facing = v_sra(v_shl(sum, 16), 16), leaning = v_sra(v_subi(sum, facing), 16);
+    vf32 light = v_mul(v_add(v_mul(in->facing, v_float(facing)), v_mul(in->leaning, v_float(leaning))), in->scale);
+    return v_min(v_max(light, zero), v_setf(E3D_OCCLUSION_MOST));
 }
 
-/* Finds the occlusion of pixels x and so on of a row. */
-static ALWAYS_INLINE void occlusion_some(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, int x, int side, float *out,
-                                         int is_perspective)
+/* Stores that sites x and so on have no surface. */
+static ALWAYS_INLINE void occlusion_nothing(const e3d_occlusion_sites *here, int x)
 {
-    const e3d_occlusion_pattern *pattern = &plan->rows[rows->y & (E3D_OCCLUSION_CELL - 1)];
-    vf32 zero = v_setf(0.0f), near[OCCLUSION_SIDE], hidden[OCCLUSION_SIDE], any = zero;
-    occlusion_lanes at[OCCLUSION_SIDE];
-    occlusion_place places[E3D_OCCLUSION_TAPS][OCCLUSION_SIDE];
-    vmask shows = v_mnot(v_eq(zero, zero));
-    for (int j = 0; j < side; j++) {
-        near[j] = v_loadf(rows->nearness[OCCLUSION_MIDDLE] + x + j * V_LANES);
-        shows = v_mor(shows, v_mnot(v_eq(near[j], zero)));
-        v_storef(out + x + j * V_LANES, zero);
+    vf32 zero = v_setf(0.0f);
+    v_storef(here->change[0] + x, zero);
+    v_storef(here->change[1] + x, zero);
+    v_storef(here->firm + x, zero);
+    v_storef(here->share + x, zero);
+}
+
+/* The sectors that are hidden to one side. */
+static ALWAYS_INLINE vi32 occlusion_hidden_on(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at,
+                                              const occlusion_slice *in, int side, int is_perspective)
+{
+    occlusion_place places[E3D_OCCLUSION_TAPS];
+    vf32 top = v_setf(0.0f), range2 = v_loadf(pattern->range2 + lane);
+    vi32 hidden = v_seti(0);
+    occlusion_look_around(plan, pattern, lane, at, side, is_perspective, places);
+    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
+        occlusion_thing thing = occlusion_thing_at(at, &places[tap], range2, is_perspective);
+        if (v_any(thing.counts))
+            hidden = v_ori(hidden, occlusion_hidden(plan, in, &thing, side, &top));
     }
-    if (!v_any(shows))
+    return hidden;
+}
+
+/* Finds the sites x and so on of the middle one of three rows. */
+static ALWAYS_INLINE void occlusion_some(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row, int x, int is_perspective)
+{
+    const e3d_occlusion_pattern *pattern = &plan->rows[row & (E3D_OCCLUSION_CELL - 1)];
+    int lane = x & (E3D_OCCLUSION_CELL - 1);
+    vf32 zero = v_setf(0.0f), change[2];
+    occlusion_nothing(&rows[1], x);
+    if (!v_any(v_mnot(v_eq(v_loadf(rows[1].near + x), zero))))
         return;
-    for (int j = 0; j < side; j++)
-        at[j] = occlusion_surface(plan, rows, x + j * V_LANES, is_perspective);
-    occlusion_look_around(plan, pattern, x, side, at, near, is_perspective, places);
-    occlusion_horizon(plan, side, at, places, is_perspective, hidden);
-    for (int j = 0; j < side; j++)
-        any = v_max(any, v_self(v_eq(near[j], zero), zero, hidden[j]));
-    if (!v_any(v_gt(any, zero)))
+    occlusion_lanes at = occlusion_surface(plan, &rows[1], row, x, is_perspective);
+    occlusion_face(plan, rows, x, &at, is_perspective, change);
+    occlusion_slice in = occlusion_slice_of(pattern, lane, &at);
+    vi32 none = v_seti(0), hidden = occlusion_hidden_on(plan, pattern, lane, &at, &in, 0, is_perspective);
+    hidden = v_ori(hidden, occlusion_hidden_on(plan, pattern, lane, &at, &in, 1, is_perspective));
+    hidden = v_seli(at.shows, hidden, none);
+    if (!v_any(v_gti(hidden, none)))
         return;
-    for (int j = 0; j < side; j++) {
-        vf32 share = occlusion_share(pattern, (x + j * V_LANES) & (E3D_OCCLUSION_CELL - 1), &at[j], hidden[j], is_perspective);
-        vmask some = v_mand(v_mnot(v_eq(near[j], zero)), v_gt(hidden[j], zero));
-        v_storef(out + x + j * V_LANES, v_self(some, share, zero));
-    }
+    hidden = occlusion_above_face(plan, pattern, lane, &at, &in, change, hidden, is_perspective);
+    v_storef(rows[1].share + x, v_self(v_gti(hidden, none), occlusion_light(plan, &in, hidden), zero));
 }
 
-static ALWAYS_INLINE void occlusion_row(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
+static ALWAYS_INLINE void occlusion_row(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row, int is_perspective)
 {
-    int x = 0, width = plan->picture->width;
-    for (; x + (OCCLUSION_SIDE - 1) * V_LANES < width; x += OCCLUSION_SIDE * V_LANES)
-        occlusion_some(plan, rows, x, OCCLUSION_SIDE, out, is_perspective);
-    for (; x < width; x += V_LANES)
-        occlusion_some(plan, rows, x, 1, out, is_perspective);
+    for (int x = 0; x < plan->width; x += V_LANES)
+        occlusion_some(plan, rows, row, x, is_perspective);
 }
 
-static void kernel_occlusion(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out)
+static void kernel_occlusion(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row)
 {
     if (plan->picture->is_perspective)
-        occlusion_row(plan, rows, out, 1);
+        occlusion_row(plan, rows, row, 1);
     else
-        occlusion_row(plan, rows, out, 0);
+        occlusion_row(plan, rows, row, 0);
 }
 
 /* ---- the filter (R128) ---- */
 
-/* Whether the mean is needed: it is never used if nothing shows in the middle, and is 0 if no pixel has anything hidden. */
-static ALWAYS_INLINE int occlusion_has_some(vf32 near, const vf32 share[E3D_OCCLUSION_SPAN])
+/* The site at a place of a row, as the filter sees it. */
+typedef struct occlusion_site {
+    vf32 near, change, firm, share;
+} occlusion_site;
+
+static ALWAYS_INLINE occlusion_site occlusion_site_at(const e3d_occlusion_sites *row, int axis, int x)
 {
-    vf32 most = share[0];
-    if (!v_any(v_mnot(v_eq(near, v_setf(0.0f)))))
+    return (occlusion_site){v_loadf(row->near + x), v_loadf(row->change[axis] + x), v_loadf(row->firm + x), v_loadf(row->share + x)};
+}
+
+/* Whether the mean is needed: it is never used if nothing shows in the middle, and is 0 if no site has anything hidden. */
+static ALWAYS_INLINE int occlusion_has_some(const occlusion_site sites[E3D_OCCLUSION_SPAN])
+{
+    vf32 most = sites[0].share;
+    if (!v_any(v_mnot(v_eq(sites[OCCLUSION_MIDDLE].near, v_setf(0.0f)))))
         return 0;
     for (int k = 1; k < E3D_OCCLUSION_SPAN; k++)
-        most = v_max(most, share[k]);
+        most = v_max(most, sites[k].share);
     return v_any(v_gt(most, v_setf(0.0f)));
 }
 
-/* The mean over nine pixels of a row or column, each weighted by how well it lies on the middle one's surface. */
-static ALWAYS_INLINE vf32 occlusion_mean(const e3d_occlusion_plan *plan, const vf32 near[E3D_OCCLUSION_SPAN], const vf32 share[E3D_OCCLUSION_SPAN], int is_perspective)
+/* The mean over nine sites, each weighted by how well it and the middle one lie on each other's faces. */
+static ALWAYS_INLINE vf32 occlusion_mean(const occlusion_site sites[E3D_OCCLUSION_SPAN])
 {
-    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), here = near[OCCLUSION_MIDDLE], over_step = v_setf(plan->over_step);
-    vf32 change = occlusion_change(near[OCCLUSION_MIDDLE - 1], here, near[OCCLUSION_MIDDLE + 1]);
-    vf32 sum = share[OCCLUSION_MIDDLE], weights = one;
-    if (is_perspective)
-        over_step = v_div(over_step, v_self(v_eq(here, zero), one, occlusion_abs(here)));
+    const occlusion_site *here = &sites[OCCLUSION_MIDDLE];
+    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), sum = here->share, weights = one;
+    if (!occlusion_has_some(sites))
+        return zero;
     for (int k = 0; k < E3D_OCCLUSION_SPAN; k++) {
+        const occlusion_site *other = &sites[k];
+        vf32 steps = v_setf((float)(k - OCCLUSION_MIDDLE)), rise = v_sub(other->near, here->near);
         if (k == OCCLUSION_MIDDLE)
             continue;
-        vf32 off = v_sub(v_sub(near[k], here), v_mul(change, v_setf((float)(k - OCCLUSION_MIDDLE))));
-        vf32 weight = v_max(v_sub(one, v_mul(occlusion_abs(off), over_step)), zero);
+        vf32 off = v_mul(occlusion_abs(v_sub(rise, v_mul(here->change, steps))), here->firm);
+        vf32 off_other = v_mul(occlusion_abs(v_sub(rise, v_mul(other->change, steps))), other->firm);
+        vf32 weight = v_max(v_sub(one, v_max(off, off_other)), zero);
         if (k == 0 || k == E3D_OCCLUSION_SPAN - 1)
             weight = v_mul(weight, v_setf(0.5f));
-        weight = v_self(v_eq(near[k], zero), zero, weight);
-        sum = v_add(sum, v_mul(weight, share[k]));
+        weight = v_self(v_eq(other->near, zero), zero, weight);
+        sum = v_add(sum, v_mul(weight, other->share));
         weights = v_add(weights, weight);
     }
     return v_div(sum, weights);
 }
 
-static ALWAYS_INLINE void occlusion_means_across(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
+static void kernel_occlusion_across(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *row, float *out)
 {
-    for (int x = 0; x < plan->picture->width; x += V_LANES) {
-        vf32 near[E3D_OCCLUSION_SPAN], share[E3D_OCCLUSION_SPAN], mean = v_setf(0.0f);
+    occlusion_site sites[E3D_OCCLUSION_SPAN];
+    for (int x = 0; x < plan->width; x += V_LANES) {
         for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
-            share[k] = v_loadf(rows->share[OCCLUSION_MIDDLE] + x + k - OCCLUSION_MIDDLE);
-        for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
-            near[k] = v_loadf(rows->nearness[OCCLUSION_MIDDLE] + x + k - OCCLUSION_MIDDLE);
-        if (occlusion_has_some(near[OCCLUSION_MIDDLE], share))
-            mean = occlusion_mean(plan, near, share, is_perspective);
-        v_storef(out + x, mean);
+            sites[k] = occlusion_site_at(row, 0, x + k - OCCLUSION_MIDDLE);
+        v_storef(out + x, occlusion_mean(sites));
     }
 }
 
-static ALWAYS_INLINE void occlusion_means_down(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
+static void kernel_occlusion_down(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, float *out)
+{
+    occlusion_site sites[E3D_OCCLUSION_SPAN];
+    for (int x = 0; x < plan->width; x += V_LANES) {
+        for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
+            sites[k] = occlusion_site_at(&rows[k], 1, x);
+        v_storef(out + x, occlusion_mean(sites));
+    }
+}
+
+/* ---- pixels between sites (R180) ---- */
+
+/* The sums over the sites around a pixel. */
+typedef struct occlusion_sums {
+    vf32 shares, weights;
+} occlusion_sums;
+
+/* Adds sites to the sums of pixels that lie `right` and `down` of them, in sites. */
+static ALWAYS_INLINE void occlusion_add(const e3d_occlusion_sites *row, int x, float right, float down, vf32 near, occlusion_sums *sums)
+{
+    vf32 zero = v_setf(0.0f), there = v_loadf(row->near + x);
+    vf32 expected = v_add(v_add(there, v_mul(v_loadf(row->change[0] + x), v_setf(right))), v_mul(v_loadf(row->change[1] + x), v_setf(down)));
+    vf32 off = v_mul(occlusion_abs(v_sub(near, expected)), v_loadf(row->firm + x));
+    vf32 weight = v_add(v_max(v_sub(v_setf(1.0f), v_mul(off, v_setf(2.0f))), zero), v_setf(E3D_OCCLUSION_REST));
+    weight = v_self(v_eq(there, zero), zero, weight);
+    sums->shares = v_add(sums->shares, v_mul(weight, v_loadf(row->share + x)));
+    sums->weights = v_add(sums->weights, weight);
+}
+
+/* The visibility of every second pixel of a row: of sites themselves, or of pixels to the right of, or below, sites. */
+static ALWAYS_INLINE vf32 occlusion_pixels(const e3d_occlusion_sites *rows, int x, int is_between, int is_below, vf32 near)
 {
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f);
-    for (int x = 0; x < plan->picture->width; x += V_LANES) {
-        vf32 near[E3D_OCCLUSION_SPAN], share[E3D_OCCLUSION_SPAN], hidden = zero;
-        for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
-            share[k] = v_loadf(rows->share[k] + x);
-        for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
-            near[k] = v_loadf(rows->nearness[k] + x);
-        if (occlusion_has_some(near[OCCLUSION_MIDDLE], share))
-            hidden = v_self(v_eq(near[OCCLUSION_MIDDLE], zero), zero, occlusion_mean(plan, near, share, is_perspective));
-        v_storef(out + x, v_max(v_sub(one, hidden), zero));
+    occlusion_sums sums = {zero, zero};
+    if (!is_between && !is_below)
+        return v_self(v_eq(near, zero), one, v_max(v_sub(one, v_loadf(rows[0].share + x)), zero));
+    for (int down = 0; down <= is_below; down++)
+        for (int right = 0; right <= is_between; right++)
+            occlusion_add(&rows[down], x + right, 0.5f * (float)(is_between - 2 * right), 0.5f * (float)(is_below - 2 * down), near, &sums);
+    vmask shows = v_mand(v_mnot(v_eq(near, zero)), v_gt(sums.weights, zero));
+    return v_self(shows, v_max(v_sub(one, v_div(sums.shares, sums.weights)), zero), one);
+}
+
+static ALWAYS_INLINE void occlusion_spread_row(const e3d_occlusion_sites *rows, const float *depth, int width, int is_below, int is_perspective, float *out)
+{
+    for (int x = 0; x < width; x += V_LANES) {
+        vf32 even, odd;
+        v_split(v_loadf(depth + 2 * x), v_loadf(depth + 2 * x + V_LANES), &even, &odd);
+        vf32 at_sites = occlusion_pixels(rows, x, 0, is_below, occlusion_nearness(even, is_perspective));
+        vf32 between = occlusion_pixels(rows, x, 1, is_below, occlusion_nearness(odd, is_perspective));
+        v_store_pairs(out + 2 * x, v_asi(at_sites), v_asi(between));
     }
 }
 
-static void kernel_occlusion_across(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out)
+static void kernel_occlusion_spread(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, const float *depth, int is_below, float *out)
 {
     if (plan->picture->is_perspective)
-        occlusion_means_across(plan, rows, out, 1);
+        occlusion_spread_row(rows, depth, plan->width, is_below, 1, out);
     else
-        occlusion_means_across(plan, rows, out, 0);
-}
-
-static void kernel_occlusion_down(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out)
-{
-    if (plan->picture->is_perspective)
-        occlusion_means_down(plan, rows, out, 1);
-    else
-        occlusion_means_down(plan, rows, out, 0);
+        occlusion_spread_row(rows, depth, plan->width, is_below, 0, out);
 }

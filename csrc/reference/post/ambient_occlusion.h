@@ -3,4 +3,4 @@
 
 #include "e3d_occlusion.h"
 
-void e3d_reference_occlusion(const e3d_depth_picture *picture, float radius, float *scratch, float *visibility);
+e3d_status e3d_reference_occlusion(const e3d_depth_picture *picture, float radius, float *visibility);

@@ -1,7 +1,7 @@
 """Ambient occlusion: the fraction of ambient light that reaches each pixel.
 
-In: the picture's depths, one sample per pixel, and its view. Out: a factor for each pixel, by which
-the core multiplies ambient light (docs/exactness, section 21).
+In: the picture's depths and normals, one sample per pixel, and its view. Out: a factor for each
+pixel, by which the core multiplies ambient light (docs/exactness, section 21).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..._native.rasterizer import find_occlusion
+from ..._native.rasterizer import find_occlusion, occlusion_scratch
 from ...base import linalg
 from .._output_pool import Shapes
 from .._view import View
@@ -62,9 +62,9 @@ def view_scale(view: View) -> float:
 
 
 class AmbientOcclusion(Pass):
-    """Computes each pixel's ambient visibility from metric depth, which is 0 for background."""
+    """Computes each pixel's ambient visibility from metric depth and normals, 0 for background."""
 
-    reads = ("surface_depth", "scene")
+    reads = ("surface_depth", "surface_normal", "scene")
     writes = ("ambient_visibility",)
     name, advice = "ambient occlusion", "ambient_occlusion=False"
 
@@ -74,8 +74,9 @@ class AmbientOcclusion(Pass):
         return options.wireframe != "only"
 
     def arrays(self, width: int, height: int) -> Shapes:
-        form = (height, width), np.dtype(np.float32)
-        return {"ambient_visibility": form, "occlusion": form}
+        floats = np.dtype(np.float32)
+        scratch = (occlusion_scratch(width, height),), floats
+        return {"ambient_visibility": ((height, width), floats), "occlusion": scratch}
 
     def draw(self, picture: Picture) -> None:
         visibility = picture.arrays["ambient_visibility"]
@@ -86,6 +87,7 @@ class AmbientOcclusion(Pass):
             return
         find_occlusion(
             picture.arrays["surface_depth"],
+            picture.arrays["surface_normal"],
             *rays,
             radius,
             self.tools.backend,

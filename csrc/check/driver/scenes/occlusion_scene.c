@@ -1,13 +1,19 @@
-/* Random and hostile pictures of depths: planes and noise, holes, depths of any size, odd sizes of pictures. */
+/* Random and hostile pictures of depths and normals: planes and noise, holes, depths and normals of any size, odd sizes of
+ * pictures. */
 #include "check/driver/scenes/occlusion_scene.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "e3d_occlusion.h"
 
 enum { SIDE = 140,
        PIXELS = SIDE * SIDE };
+
+typedef struct surfaces {
+    float depth[PIXELS], normal[3 * PIXELS];
+} surfaces;
 
 static const float HOSTILE[] = {0.0f, -0.0f, -1.0f, 1e-40f, 1e-30f, 1e30f, 3e38f};
 
@@ -26,9 +32,22 @@ static void random_depths(random_stream *r, const e3d_depth_picture *picture, fl
     }
 }
 
-static e3d_depth_picture random_picture(random_stream *r, float *depth)
+/* Normals that look to the viewer, mostly: of sheets, of no length, or of any. */
+static void random_normals(random_stream *r, const e3d_depth_picture *picture, float *normal)
 {
-    e3d_depth_picture picture = {.depth = depth};
+    float lean[2] = {random_float(r, -1.0f, 1.0f), random_float(r, -1.0f, 1.0f)}, noise = random_once_in(r, 2) ? 0.0f : 0.5f;
+    int hostile = random_once_in(r, 3);
+    for (int32_t i = 0; i < picture->width * picture->height; i++) {
+        for (int c = 0; c < 3; c++)
+            normal[3 * i + c] = (c < 2 ? lean[c] : 1.0f) + random_float(r, -noise, noise);
+        for (int c = 0; c < 3 && random_once_in(r, 30); c++)
+            normal[3 * i + c] = hostile ? HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)] : 0.0f;
+    }
+}
+
+static e3d_depth_picture random_picture(random_stream *r, surfaces *s)
+{
+    e3d_depth_picture picture = {.depth = s->depth, .normal = s->normal};
     picture.width = 1 + random_below(r, SIDE);
     picture.height = 1 + random_below(r, SIDE);
     float pixel = random_float(r, 0.001f, 0.1f);
@@ -37,17 +56,24 @@ static e3d_depth_picture random_picture(random_stream *r, float *depth)
     picture.down[0] = random_once_in(r, 4) ? pixel : -pixel;
     picture.down[1] = random_float(r, -2.0f, 2.0f);
     picture.is_perspective = random_below(r, 2);
-    random_depths(r, &picture, depth);
+    random_depths(r, &picture, s->depth);
+    random_normals(r, &picture, s->normal);
     return picture;
 }
 
 /* The hash of a picture's visibility, whose bytes are all written; 0 where it holds a NaN or fails. */
 static uint64_t find(e3d_backend backend, int32_t threads, const e3d_depth_picture *picture, float radius)
 {
-    static float scratch[PIXELS], visibility[PIXELS];
-    size_t count = (size_t)picture->width * (size_t)picture->height;
+    static float visibility[PIXELS];
+    size_t count = (size_t)picture->width * (size_t)picture->height, floats = e3d_occlusion_scratch(picture->width, picture->height);
+    float *scratch = malloc(floats * sizeof *scratch);
+    if (!scratch)
+        return 0;
     memset(visibility, 0x5A + threads, sizeof visibility);
-    if (e3d_find_occlusion(backend, threads, picture, radius, scratch, visibility) != E3D_OK)
+    memset(scratch, 0x5A + threads, floats * sizeof *scratch);
+    e3d_status status = e3d_find_occlusion(backend, threads, picture, radius, scratch, visibility);
+    free(scratch);
+    if (status != E3D_OK)
         return 0;
     for (size_t i = 0; i < count; i++)
         if (isnan(visibility[i]))
@@ -57,8 +83,8 @@ static uint64_t find(e3d_backend backend, int32_t threads, const e3d_depth_pictu
 
 outcome compare_occlusion(random_stream r, const run_plan *plan, const char *title)
 {
-    static float depth[PIXELS];
-    e3d_depth_picture picture = random_picture(&r, depth);
+    static surfaces s;
+    e3d_depth_picture picture = random_picture(&r, &s);
     float radius = random_float(&r, 0.01f, 4.0f);
     outcome result = {.agrees = 1};
     for (int k = 0; k < E3D_BACKEND_COUNT; k++)

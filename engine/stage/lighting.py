@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..base import linalg
+from ..choices import LightShadow
 from ..model.materials.linear_colors import linear
 from ..model.scene.lights import (
     LIGHTS,
@@ -26,14 +27,15 @@ from ..model.scene.lights import (
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
+from .shadow_switch import switch_shadows
 from .views.viewpoint import Sphere
 
 #: Per set-up: the light's direction, in camera space (or the home frame, if fixed), the linear
 #: colour, the intensity as a part of the one that shows white.
 SETUPS = {
     "studio": (
-        ((-0.50, -0.60, -0.80), (1.0, 0.97, 0.92), 0.74),
-        ((0.85, -0.10, -0.50), (0.82, 0.90, 1.0), 0.30),
+        ((-0.50, -0.85, -0.65), (1.0, 0.97, 0.92), 1.10),
+        ((0.85, -0.10, -0.50), (0.82, 0.90, 1.0), 0.12),
         ((0.20, -0.60, 0.75), (1.0, 1.0, 1.0), 0.30),
     ),
     "headlight": (((0.0, 0.0, -1.0), (1.0, 1.0, 1.0), 1.0),),
@@ -51,6 +53,12 @@ OWN_LIGHTS = "scene"
 #: The set-up without lights: the renderer lights the scene from the camera.
 NO_LIGHTS = "plain"
 _UNTURNED = (OWN_LIGHTS, NO_LIGHTS)
+#: The set-up whose shadows are hidden behind what casts them.
+_SHADOWLESS = "headlight"
+#: Texels a side of shadow maps: about as many as the shorter side of the picture has pixels.
+_LEAST_MAP, _MOST_MAP = 512, 2048
+#: The distance of a map's comparisons, in thousandths of its side: how soft shadows are.
+_SOFTNESS = 1.7
 _IN_ENVIRONMENT = 0.6  # factor for set-ups in an environment, which also lights
 
 
@@ -107,6 +115,28 @@ class Lighting:
     def groups(self) -> list[list[Light]]:
         """Return the groups of lights that shine together, one for each set-up."""
         return list(self._lights.values())
+
+    def cast_shadows(self, shadow: LightShadow) -> None:
+        """Let the main lights of set-ups cast shadows; the scene's own lights stay as they are."""
+        others = (OWN_LIGHTS, _SHADOWLESS)
+        switch_shadows([lights for name, lights in self._lights.items() if name not in others], shadow)
+
+    def soften(self, size: tuple[int, int]) -> None:
+        """Fit the shadow maps of set-ups to a picture of a given size, so that shadows are soft."""
+        side = _LEAST_MAP
+        while side < min(size) and side < _MOST_MAP:
+            side *= 2
+        for name, lights in self._lights.items():
+            for light in lights:
+                if name != OWN_LIGHTS and isinstance(light, DirectionalLight):
+                    _soften(light, side)
+
+    def main_direction(self) -> np.ndarray | None:
+        """Return the direction, (3,), in which the main light travels now; None of other lights."""
+        if self.name in _UNTURNED:
+            return None
+        node = self._nodes[0]
+        return linalg.dot(node.pose[:3, :3], cast(DirectionalLight, node.object).direction)
 
     def follow(self, pose: np.ndarray) -> None:
         """Rotate the set-up with the camera, whose pose is (4, 4)."""
@@ -167,6 +197,15 @@ class OnlyLight:
     def choose(self, name: str) -> None:
         """Do nothing: there is only one set-up."""
 
+    def soften(self, size: tuple[int, int]) -> None:
+        """Do nothing: only the shadows of set-ups are soft."""
+
+    def main_direction(self) -> np.ndarray | None:
+        """Return the direction, (3,), in which a directional light travels, as `Lighting` does."""
+        if not isinstance(self._node.object, DirectionalLight):
+            return None
+        return linalg.dot(self._node.pose[:3, :3], self._node.object.direction)
+
     def turn(self, pose: np.ndarray, dx: float, dy: float) -> bool:
         """Rotate a directional light as `Lighting.turn` does; return whether it is one."""
         if isinstance(self._node.object, PointLight):
@@ -210,6 +249,13 @@ def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:
 
 def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.stack([linalg.dot(a, column) for column in b.T], axis=1)
+
+
+def _soften(light: DirectionalLight, side: int) -> None:
+    """Give a light shadow maps with a given side, and their usual softness."""
+    if light.shadow == "map" and (light.shadow_map_size, light.shadow_taps) != (side, 5):
+        light.shadow_map_size, light.shadow_taps = side, 5
+        light.shadow_radius = _SOFTNESS * side / 1000
 
 
 def _pose_of(rotation: np.ndarray) -> np.ndarray:

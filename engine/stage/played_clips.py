@@ -6,15 +6,22 @@ viewed scene plays the clips, or holds their pose at the time.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..model.motion.clips import AnimationClip
 from ..model.motion.player import AnimationPlayer
-from .scene_bounds import sphere_of_box
+from .scene_bounds import sphere_of_points, world_points
 from .viewed_scene import NotInModelError, ViewedScene
 
-#: At this many times of a clip, the scene's extent is measured.
-LOOKS = 16
+#: The scene's extent is measured at so many times of a clip: so many a second, within limits, and
+#: fewer for scenes of very many points.
+RATE = 12
+LEAST_LOOKS, MOST_LOOKS = 16, 96
+MOST_POINTS = 1_000_000
+#: Columns per side of the grid over which the outermost points are found.
+CELLS = 128
 
 
 def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip, ...]:
@@ -56,18 +63,46 @@ def play_clips(viewed: ViewedScene, index: int | None = None) -> None:
     viewed.player = player
     viewed.period = player.duration or viewed.period
     viewed.plays = True
-    box = _reach(viewed, player)
     viewed.update = player.seek
-    viewed.focus = np.array([[box[k >> a & 1][a] for a in range(3)] for k in range(8)])
-    viewed.bounds = sphere_of_box(box)
+    viewed.swept = _swept(viewed, player)
+    viewed.bounds = sphere_of_points(viewed.swept)
     player.seek(0.0)
 
 
-def _reach(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
-    """Return the box of the scene over all times, (2, 3), estimated from samples."""
-    boxes = []
-    for number in range(LOOKS):
-        player.seek(viewed.period * number / LOOKS)
-        boxes.append(viewed.scene.bounds)
-    lows, highs = zip(*boxes, strict=True)
-    return np.stack([np.min(lows, axis=0), np.max(highs, axis=0)])
+def _swept(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
+    """Return points that bound the scene at all times as tightly as its vertices do, (N, 3).
+
+    At the times between those that are looked at, it may reach a little farther.
+    """
+    found: list[np.ndarray] = []
+    looks = _looks(viewed.period, sum(map(len, world_points(viewed.scene))))
+    for number in range(looks):
+        player.seek(viewed.period * number / looks)
+        points = [*world_points(viewed.scene), np.zeros((0, 3))]
+        found.append(_outermost(np.concatenate(points)))
+    swept = _outermost(np.concatenate(found))
+    return swept if len(swept) else viewed.scene.bounds
+
+
+def _looks(period: float, points: int) -> int:
+    """Return at how many times to look at a scene of so many points."""
+    wanted = min(RATE * period, MOST_POINTS / max(points, 1))
+    return max(LEAST_LOOKS, min(math.ceil(wanted), MOST_LOOKS))
+
+
+def _outermost(points: np.ndarray) -> np.ndarray:
+    """Return the lowest and the highest points of each column over a grid.
+
+    No others are farthest in any direction, but for a fraction of a column's width.
+    """
+    if len(points) <= CELLS:
+        return points
+    low, size = points.min(axis=0), np.ptp(points, axis=0)
+    with np.errstate(all="ignore"):
+        shares = np.nan_to_num((points[:, :2] - low[:2]) / size[:2])
+    cells = np.clip(shares * CELLS, 0, CELLS - 1).astype(np.intp)
+    columns = cells[:, 0] * CELLS + cells[:, 1]
+    order = np.lexsort((points[:, 2], columns))
+    starts = np.flatnonzero(np.diff(columns[order], prepend=-1))
+    ends = np.append(starts[1:], len(order)) - 1
+    return points[order[np.union1d(starts, ends)]]

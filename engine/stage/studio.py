@@ -26,8 +26,9 @@ from ..model.scene.ambient_lights import HemisphereLight
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
-from .ground_shadow import REACH, SIDE, GroundShadow
+from .ground_shadow import REACH, SIDE, GroundShadow, slant_along, usual_slant
 from .overlays.theme import DARK, LIGHT, Theme
+from .views.camera_view import AnyView
 from .views.viewpoint import Sphere
 
 #: Ambient light from above and from below.
@@ -83,18 +84,22 @@ class Studio:
         """Whether the shadow is drawn."""
         return self._ground is not None and self._ground.visible
 
-    def lay_shadow(self, bounds: Sphere, azimuth: float, cull: FrameCull, eye: np.ndarray) -> None:
+    def lay_shadow(
+        self, bounds: Sphere, view: AnyView, light: np.ndarray | None, cull: FrameCull
+    ) -> None:
         """Draw the scene's current shadow on the ground.
 
         Parameters
         ----------
         bounds : Sphere
             The scene's bounds, which determine the size of the shadow.
-        azimuth, cull
+        view : Viewpoint or CameraView
+        light : (3,) ndarray of float64 or None
+            The direction in which the key light travels; None: from behind the viewer's shoulder.
+        cull : str
             As in `GroundShadow.alphas`.
-        eye : (4,) sequence of float
-            The viewer's position and 1, or the direction to the viewer and 0.
         """
+        eye = view.eye()
         self.show_shadow(False)
         lowest = min(self._usual, self._lowest())
         up, center = self._axes[1], np.array(bounds.center)
@@ -102,7 +107,8 @@ class Studio:
         towards = np.array(eye[:3]) - middle * eye[3]
         if not float(linalg.dot(towards, up)) > _LEVEL * float(linalg.length(towards)):
             return
-        alphas = self._shadow.alphas(lowest, bounds, azimuth, cull)
+        slant = usual_slant(view.azimuth) if light is None else slant_along(light, self._axes)
+        alphas = self._shadow.alphas(lowest, bounds, slant, cull)
         ground = self._darkened(alphas)
         farther = 1.0 + BEHIND * eye[3]
         pose = np.eye(4)

@@ -17,6 +17,7 @@ from ...rendering.renderer import Renderer
 from ...stage.appearance import count_points, point_size
 from ...stage.blank import Sight
 from ...stage.coloring import show_numbers
+from ...stage.finish import finish_for
 from ...stage.lighting import NO_LIGHTS, Lighting
 from ...stage.look import Look
 from ...stage.overlays.numbers import take_marks
@@ -102,7 +103,9 @@ class PanelRenderer:
         """Light drawings, whatever lights the scene has."""
         look, first = self._look, self._look.lights or NO_LIGHTS
         self.staged.read_textures(self._settings.filtering)
-        self._settings.surroundings.put(self.staged, look.environment)
+        self._settings.surroundings.put(self.staged, self.up if look.environment else None)
+        shows_numbers = self._viewed.bar is not None or self._viewed.coloring is not None
+        self.staged.finish_materials(finish_for(look, self.staged, shows_numbers))
         self.staged.fog = None
         self._lighting = Lighting(self.staged, self.up, look.light_intensity, first)
         self._lighting.choose(first)

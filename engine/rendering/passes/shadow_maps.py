@@ -99,7 +99,7 @@ class ShadowMaps(Pass):
         for known in (self._kept, self._found):
             for number in known.keys() - {number for number, _, _ in lights}:
                 del known[number]
-        bounds = scene.bounds
+        bounds = scene.data.shadow_bounds()
         cull = CULLS[picture.shadow_cull]
         arrays = scene.data.arrays
         moment = arrays, arrays.updated, draw_list.renewals, cull

@@ -15,9 +15,8 @@ from numpy.typing import ArrayLike
 from ..choices import Color
 from ..model.environments import cove
 from ..model.environments.environment import Environment
-from ..model.geometry.mesh import Mesh
 from ..model.materials.display_colors import display_color
-from ..model.materials.material import Material
+from ..model.materials.material import Material, states_nothing
 from ..model.scene.gradients import Gradient
 from ..model.scene.orbiting import home_axes
 from ..model.scene.scene import Scene
@@ -57,11 +56,12 @@ class Surroundings:
         ----------
         scene : StagedScene
         up : (3,) sequence of float, optional
-            The world's up direction, if surfaces of a scene without environment reflect the cove.
+            The world's up direction, if physically based materials of a scene without environment
+            reflect the cove. Others only look as if they did, since it takes time to prepare.
         """
         if self.environment is not None or self.without:
             scene.environment = self.environment
-        elif up is not None and not self.shows and _reflects(scene.scene):
+        elif up is not None and not self.shows and scene.scene.environment is None and _has_physical(scene.scene):
             x, y, z = np.asarray(up, np.float64).tolist()
             scene.environment = _cove((x, y, z))
         if self.rotation is not None:
@@ -75,21 +75,14 @@ class Surroundings:
             scene.background = scene.environment
 
 
-def _reflects(scene: Scene) -> bool:
-    """Return whether the cove is to be reflected in a scene.
-
-    That is so if it has no environment, and faces that are lit; beside lights of its own, only for
-    the sake of what is physically based.
-    """
-    if scene.environment is not None:
-        return False
-    used = uses_in([scene])
-    if not any(isinstance(thing, Mesh) and len(thing.faces) for thing in used):
-        return False
-    is_lit = any(node.visible for node in scene.data.lights.values())
+def _has_physical(scene: Scene) -> bool:
+    """Return whether a scene shows lit physically based materials that somebody chose."""
     return any(
-        isinstance(thing, Material) and not thing.unlit and (thing.is_physical or not is_lit)
-        for thing in used
+        isinstance(thing, Material)
+        and thing.is_physical
+        and not thing.unlit
+        and not states_nothing(thing)
+        for thing in uses_in([scene])
     )
 
 

@@ -10,6 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..model.environments.cove import SHEEN
+from ..model.materials.colors import linear_color
+from ..model.materials.linear_colors import LinearColor
 from ..model.materials.material import Material, copy_of, states_nothing
 from ..model.materials.phong import roughness_of
 from ..model.scene.staged_scene import StagedScene
@@ -29,11 +32,14 @@ class StudioFinish:
     ----------
     reflects : bool
         Whether materials that are not physically based become dielectrics.
+    sheen : float
+        What dielectrics reflect where there is no environment to reflect: linear light.
     colors : bool
         Whether what states no material is grey instead of white.
     """
 
     reflects: bool
+    sheen: float
     colors: bool
 
     def __call__(self, material: Material, tinted: bool) -> Material:
@@ -51,7 +57,16 @@ class StudioFinish:
             roughness = None if is_clay else roughness_of(material)
             changes["metallic"] = 0.0
             changes["roughness"] = ROUGHNESS if roughness is None else roughness
+        if self.reflects and self.sheen:
+            changes["emissive"] = _lighter(material, self.sheen)
         return made
+
+
+def _lighter(material: Material, light: float) -> LinearColor:
+    """Return what a material emits, and some white light more."""
+    strength = material.emissive_strength if material.is_physical else 1.0
+    own = linear_color(material.emissive) * strength
+    return LinearColor(float(component) + light for component in own)
 
 
 def finish_for(look: Look, staged: StagedScene, shows_numbers: bool) -> StudioFinish | None:
@@ -65,6 +80,6 @@ def finish_for(look: Look, staged: StagedScene, shows_numbers: bool) -> StudioFi
     shows_numbers : bool
         Whether colours stand for numbers, so that no reflection may change them.
     """
-    reflects = look.environment and staged.environment is not None and not shows_numbers
-    colors = look.lights is not None
-    return StudioFinish(reflects, colors) if reflects or colors else None
+    reflects, colors = look.environment and not shows_numbers, look.lights is not None
+    sheen = SHEEN if staged.environment is None else 0.0
+    return StudioFinish(reflects, sheen, colors) if reflects or colors else None

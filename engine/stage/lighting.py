@@ -8,7 +8,8 @@ scene's own lights, if any, are the first set-up.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from typing import cast
 
 import numpy as np
@@ -16,7 +17,9 @@ from numpy.typing import ArrayLike
 
 from ..base import linalg
 from ..choices import LightShadow
+from ..model.environments.cove import PROBE
 from ..model.materials.linear_colors import linear
+from ..model.scene.ambient_lights import AmbientLight, HemisphereLight, LightProbe
 from ..model.scene.lights import (
     LIGHTS,
     WHITE_INTENSITY,
@@ -27,6 +30,7 @@ from ..model.scene.lights import (
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
+from .look import Look
 from .shadow_switch import switch_shadows
 from .views.viewpoint import Sphere
 
@@ -60,6 +64,8 @@ _LEAST_MAP, _MOST_MAP = 512, 2048
 #: The distance of a map's comparisons, in thousandths of its side: how soft shadows are.
 _SOFTNESS = 1.7
 _IN_ENVIRONMENT = 0.6  # factor for set-ups in an environment, which also lights
+#: Ambient light from above and from below, where there are no surroundings.
+_SKY, _GROUND = linear(0.30, 0.32, 0.36), linear(0.18, 0.17, 0.16)
 
 
 class Lighting:
@@ -72,7 +78,7 @@ class Lighting:
     up : (3,) sequence of float
         The world's up direction.
     intensity : float
-        Factor for the set-ups. An environment dims them.
+        Factor for the set-ups.
     first : str
         The first set-up of a scene without lights: a key of `SETUPS`, or `NO_LIGHTS`.
     """
@@ -91,8 +97,6 @@ class Lighting:
         if first == NO_LIGHTS:
             self._lights[NO_LIGHTS] = []
         self._home = np.stack(tuple(home_axes(up)), axis=1)
-        if staged.environment is not None:
-            intensity *= _IN_ENVIRONMENT
         intensity *= WHITE_INTENSITY
         for name, lights in SETUPS.items():
             self._lights[name] = [
@@ -131,12 +135,22 @@ class Lighting:
                 if name != OWN_LIGHTS and isinstance(light, DirectionalLight):
                     _soften(light, side)
 
+    @contextmanager
+    def without_shadows(self) -> Iterator[None]:
+        """Let set-ups cast no shadows for a while."""
+        casting = [light for node in self._nodes if (light := _direct(node)).shadow != "none"]
+        shadows = [light.shadow for light in casting]
+        switch_shadows([casting], "none")
+        yield
+        for light, shadow in zip(casting, shadows, strict=True):
+            light.shadow = shadow
+
     def main_direction(self) -> np.ndarray | None:
         """Return the direction, (3,), in which the main light travels now; None of other lights."""
         if self.name in _UNTURNED:
             return None
         node = self._nodes[0]
-        return linalg.dot(node.pose[:3, :3], cast(DirectionalLight, node.object).direction)
+        return linalg.dot(node.pose[:3, :3], _direct(node).direction)
 
     def follow(self, pose: np.ndarray) -> None:
         """Rotate the set-up with the camera, whose pose is (4, 4)."""
@@ -197,6 +211,10 @@ class OnlyLight:
     def choose(self, name: str) -> None:
         """Do nothing: there is only one set-up."""
 
+    def without_shadows(self) -> nullcontext[None]:
+        """Do nothing."""
+        return nullcontext()
+
     def soften(self, size: tuple[int, int]) -> None:
         """Do nothing: only the shadows of set-ups are soft."""
 
@@ -216,6 +234,19 @@ class OnlyLight:
 
     def follow(self, pose: np.ndarray) -> None:
         """Do nothing: the light does not follow the camera."""
+
+
+def light_around(look: Look, staged: StagedScene) -> tuple[AmbientLight | None, float]:
+    """Return the light from all around in a look, and the factor for set-ups beside it.
+
+    None: the look has no lights. If the scene has an environment, that is the light instead.
+    """
+    is_surrounded = staged.environment is not None
+    if look.lights is None:
+        return None, _IN_ENVIRONMENT if is_surrounded else 1.0
+    if look.environment:
+        return LightProbe(PROBE), _IN_ENVIRONMENT
+    return HemisphereLight(_SKY, _GROUND), _IN_ENVIRONMENT if is_surrounded else 1.0
 
 
 def placed_light(
@@ -249,6 +280,10 @@ def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:
 
 def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.stack([linalg.dot(a, column) for column in b.T], axis=1)
+
+
+def _direct(node: Node) -> DirectionalLight:
+    return cast(DirectionalLight, node.object)
 
 
 def _soften(light: DirectionalLight, side: int) -> None:

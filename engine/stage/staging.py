@@ -23,7 +23,14 @@ from .chosen_surroundings import fog_color
 from .drawn_edges import DrawnEdges
 from .filtering import Filtering
 from .finish import finish_for
-from .lighting import NO_LIGHTS, OWN_LIGHTS, Lighting, OnlyLight, placed_light
+from .lighting import (
+    NO_LIGHTS,
+    OWN_LIGHTS,
+    Lighting,
+    OnlyLight,
+    light_around,
+    placed_light,
+)
 from .look import THEMED, Look
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid
@@ -211,7 +218,8 @@ class Staging:
             return OnlyLight(self.scene, light)
         lights = None if self._is_lit_scene else look.lights
         first = lights or (NO_LIGHTS if self._adds_nothing() else "headlight")
-        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity * look.light_intensity, first)
+        intensity *= look.light_intensity * light_around(look, self.scene)[1]
+        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity, first)
 
     def _adds_nothing(self) -> bool:
         """Return whether a scene without lights is lit by the renderer itself."""
@@ -225,8 +233,8 @@ class Staging:
         if not self.viewed.themed or (look.lights is None and not look.ground):
             return None
         lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
-        is_lit = lights and look.lights is not None
-        return Studio(self.scene, UP_DIRECTIONS[self.up], is_lit, self.viewed.places)
+        ambient = light_around(look, self.scene)[0] if lights else None
+        return Studio(self.scene, UP_DIRECTIONS[self.up], ambient, self.viewed.places)
 
     def _make_edges(self) -> DrawnEdges | None:
         """Return the feature edges of the model; None if the look draws none."""

@@ -19,10 +19,9 @@ from numpy.typing import ArrayLike
 from ..base import linalg
 from ..choices import FrameCull
 from ..model.geometry.mesh import Mesh
-from ..model.materials.linear_colors import linear
 from ..model.materials.material import Material, textures_of
 from ..model.materials.textures import Texture
-from ..model.scene.ambient_lights import HemisphereLight
+from ..model.scene.ambient_lights import AmbientLight
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
@@ -31,8 +30,6 @@ from .overlays.theme import DARK, LIGHT, Theme
 from .views.camera_view import AnyView
 from .views.viewpoint import Sphere
 
-#: Ambient light from above and from below.
-_SKY, _GROUND = linear(0.30, 0.32, 0.36), linear(0.18, 0.17, 0.16)
 #: The required contrast between a model's outline and its background, as mean difference in 8-bit
 #: codes: for faces, which are shaded, and for points and lines, which are all outline.
 _CONTRAST, _THIN_CONTRAST = 5.0, 100.0
@@ -51,24 +48,27 @@ class Studio:
         The studio adds nodes beside it.
     up : (3,) sequence of float
         The world's up direction.
-    is_lit : bool
-        Whether ambient light replaces that of the scene: soft light from above and below, or its
-        environment.
+    ambient : AmbientLight or None
+        Replaces the ambient light of the scene, unless it has an environment; None leaves it.
     places : (N, 3) ndarray of float64, optional
         Points that bound the moving scene, in world space; by default it is static.
     """
 
     def __init__(
-        self, staged: StagedScene, up: ArrayLike, is_lit: bool, places: np.ndarray | None = None
+        self,
+        staged: StagedScene,
+        up: ArrayLike,
+        ambient: AmbientLight | None,
+        places: np.ndarray | None = None,
     ) -> None:
         self._staged = staged
         self._axes = home_axes(up)
-        if is_lit:
+        if ambient is not None:
             staged.ambient = (0.0, 0.0, 0.0)
-        if is_lit and staged.environment is None:
+        if ambient is not None and staged.environment is None:
             pose = np.eye(4)
             pose[:3, :3] = np.stack(tuple(self._axes), axis=1)
-            staged.beside.add(HemisphereLight(_SKY, _GROUND), pose=pose)
+            staged.beside.add(ambient, pose=pose)
         self._ground: Node | None = None
         self._square = _square()
         self._shadow = GroundShadow(staged, self._square, self._axes)

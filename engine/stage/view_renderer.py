@@ -230,7 +230,7 @@ class ViewRenderer:
         return self.staging.theme
 
     def _picture_alone(self, view: AnyView) -> np.ndarray:
-        """Return a small picture of the model on a transparent background."""
+        """Return a small picture of the model on a transparent background, without shadows."""
         scene = self.staging.scene
         background, scene.background = scene.background, None
         width, height = self.size
@@ -238,7 +238,9 @@ class ViewRenderer:
         size = max(1, round(width / scale)), max(1, round(height / scale))
         try:
             look, camera = self._appearance(), (self._camera(view), view.pose())
-            return self._small_renderer(size).render(scene, camera, **look).color
+            look["ambient_occlusion"] = False
+            with self.lighting.without_shadows():
+                return self._small_renderer(size).render(scene, camera, **look).color
         finally:
             scene.background = background
 

@@ -18,7 +18,7 @@ from ...stage.appearance import count_points, point_size
 from ...stage.blank import Sight
 from ...stage.coloring import show_numbers
 from ...stage.finish import finish_for
-from ...stage.lighting import NO_LIGHTS, Lighting
+from ...stage.lighting import NO_LIGHTS, Lighting, light_around
 from ...stage.look import Look
 from ...stage.overlays.numbers import take_marks
 from ...stage.overlays.theme import LIGHT, Theme, theme_named
@@ -107,9 +107,10 @@ class PanelRenderer:
         shows_numbers = self._viewed.bar is not None or self._viewed.coloring is not None
         self.staged.finish_materials(finish_for(look, self.staged, shows_numbers))
         self.staged.fog = None
-        self._lighting = Lighting(self.staged, self.up, look.light_intensity, first)
+        ambient, around = light_around(look, self.staged)
+        self._lighting = Lighting(self.staged, self.up, look.light_intensity * around, first)
         self._lighting.choose(first)
-        Studio(self.staged, self.up, look.lights is not None)
+        Studio(self.staged, self.up, ambient)
 
     def __enter__(self) -> PanelRenderer:
         return self

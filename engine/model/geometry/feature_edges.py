@@ -21,8 +21,10 @@ from .creases import CREASE_ANGLE
 _FLAT, _SHARP = math.radians(20.0), math.radians(40.0)
 #: So many edges may meet in between, for each that is sharp.
 _BETWEEN = 0.6
+#: In large meshes, only faces in some runs of so many are looked at for that.
+_RUNS, _RUN = 4, 2000
 #: Meshes with more faces, or more sides at such edges, are too fine for lines.
-MOST_FACES, MOST_SIDES = 1_000_000, 60_000
+MOST_FACES, MOST_SIDES = 300_000, 60_000
 
 
 class _Welded(NamedTuple):
@@ -83,9 +85,9 @@ def _edges(
     if not 0 < len(faces) <= MOST_FACES:
         return nothing
     visible = None if edge_visible is None else edge_visible.view(np.uint8)
-    welded = _weld(positions, faces, visible)
-    if only_faceted and not _is_faceted(welded):
+    if only_faceted and not _is_faceted(*_sample(positions, faces, visible)):
         return nothing
+    welded = _weld(positions, faces, visible)
     found = _sharp_edges(welded, CREASE_ANGLE)
     if found is None:
         return nothing
@@ -107,8 +109,27 @@ def _weld(positions: np.ndarray, faces: np.ndarray, visible: np.ndarray | None) 
     return _Welded(positions[first], places[faces], visible, first)
 
 
-def _is_faceted(welded: _Welded) -> bool:
+def _sample(
+    positions: np.ndarray, faces: np.ndarray, visible: np.ndarray | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+    """Return a part of the faces of a large mesh: some runs of faces that follow each other."""
+    if len(faces) <= _RUNS * _RUN:
+        return positions, faces, visible
+    starts = np.arange(_RUNS) * ((len(faces) - _RUN) // (_RUNS - 1))
+    rows = (starts[:, np.newaxis] + np.arange(_RUN)).reshape(-1)
+    corners = faces[rows].reshape(-1)
+    return (
+        positions[corners],
+        np.arange(len(corners), dtype=np.int32).reshape(-1, 3),
+        None if visible is None else visible[rows],
+    )
+
+
+def _is_faceted(
+    positions: np.ndarray, faces: np.ndarray, visible: np.ndarray | None
+) -> bool:
     """Return whether nearly all faces meet either flat or sharply."""
+    welded = _weld(positions, faces, visible)
     blunt = _sharp_edges(welded, _FLAT)
     sharp = None if blunt is None else _sharp_edges(welded, _SHARP)
     borders = None if sharp is None else _sharp_edges(welded, math.pi)

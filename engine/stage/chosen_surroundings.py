@@ -24,6 +24,7 @@ from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
 from ..model.scene.usage import uses_in
 
+
 @dataclass
 class Surroundings:
     """The user's environment settings; None leaves a value to the scene.
@@ -61,7 +62,12 @@ class Surroundings:
         """
         if self.environment is not None or self.without:
             scene.environment = self.environment
-        elif up is not None and not self.shows and scene.scene.environment is None and _has_physical(scene.scene):
+        elif (
+            up is not None
+            and not self.shows
+            and scene.scene.environment is None
+            and _has_physical(scene.scene)
+        ):
             x, y, z = np.asarray(up, np.float64).tolist()
             scene.environment = _cove((x, y, z))
         if self.rotation is not None:

@@ -123,7 +123,9 @@ class Lighting:
     def cast_shadows(self, shadow: LightShadow) -> None:
         """Let the main lights of set-ups cast shadows; the scene's own lights stay as they are."""
         others = (OWN_LIGHTS, _SHADOWLESS)
-        switch_shadows([lights for name, lights in self._lights.items() if name not in others], shadow)
+        switch_shadows(
+            [lights for name, lights in self._lights.items() if name not in others], shadow
+        )
 
     def soften(self, size: tuple[int, int]) -> None:
         """Fit the shadow maps of set-ups to a picture of a given size, so that shadows are soft."""

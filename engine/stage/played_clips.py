@@ -20,8 +20,9 @@ from .viewed_scene import NotInModelError, ViewedScene
 RATE = 12
 LEAST_LOOKS, MOST_LOOKS = 16, 96
 MOST_POINTS = 1_000_000
-#: Columns per side of the grid over which the outermost points are found.
-CELLS = 128
+#: Cells per side of the grid with which the outermost points are found, and of how many points that
+#: is done at once.
+CELLS, MANY = 128, 60_000
 
 
 def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip, ...]:
@@ -78,8 +79,8 @@ def _swept(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
     looks = _looks(viewed.period, sum(map(len, world_points(viewed.scene))))
     for number in range(looks):
         player.seek(viewed.period * number / looks)
-        points = [*world_points(viewed.scene), np.zeros((0, 3))]
-        found.append(_outermost(np.concatenate(points)))
+        points = np.concatenate([*world_points(viewed.scene), np.zeros((0, 3))])
+        found.append(_outermost(points) if len(points) > MANY else points)
     swept = _outermost(np.concatenate(found))
     return swept if len(swept) else viewed.scene.bounds
 
@@ -91,18 +92,19 @@ def _looks(period: float, points: int) -> int:
 
 
 def _outermost(points: np.ndarray) -> np.ndarray:
-    """Return the lowest and the highest points of each column over a grid.
+    """Return places around points, (N, 3): corners of the outermost cells of a grid with points.
 
-    No others are farthest in any direction, but for a fraction of a column's width.
+    They are farther out than the points by a cell's side at most.
     """
     if len(points) <= CELLS:
         return points
     low, size = points.min(axis=0), np.ptp(points, axis=0)
     with np.errstate(all="ignore"):
-        shares = np.nan_to_num((points[:, :2] - low[:2]) / size[:2])
+        shares = np.nan_to_num((points - low) / size)
     cells = np.clip(shares * CELLS, 0, CELLS - 1).astype(np.intp)
-    columns = cells[:, 0] * CELLS + cells[:, 1]
-    order = np.lexsort((points[:, 2], columns))
-    starts = np.flatnonzero(np.diff(columns[order], prepend=-1))
-    ends = np.append(starts[1:], len(order)) - 1
-    return points[order[np.union1d(starts, ends)]]
+    filled = np.zeros((CELLS * CELLS, CELLS), bool)
+    filled[cells[:, 0] * CELLS + cells[:, 1], cells[:, 2]] = True
+    columns = np.flatnonzero(filled.any(axis=1))
+    ends = [filled[columns].argmax(axis=1), CELLS - 1 - filled[columns, ::-1].argmax(axis=1)]
+    places = np.concatenate([np.stack([*divmod(columns, CELLS), end], axis=1) for end in ends])
+    return low + size * ((places + (2 * places >= CELLS)) / CELLS)

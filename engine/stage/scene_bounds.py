@@ -106,9 +106,7 @@ def turning_outline_of_points(points: np.ndarray, up: ArrayLike) -> np.ndarray:
     return _turning_outline([points], bounds, up)
 
 
-def _turning_outline(
-    parts: Iterable[np.ndarray], bounds: np.ndarray, up: ArrayLike
-) -> np.ndarray:
+def _turning_outline(parts: Iterable[np.ndarray], bounds: np.ndarray, up: ArrayLike) -> np.ndarray:
     """Return rings around points, given in parts, about the axis through the middle of bounds."""
     right, up, back = home_axes(up)
     low, high = bounds

@@ -331,7 +331,9 @@ def wall_on_a_floor():
 
 def test_models_cast_soft_shadows_on_themselves():
     pictures = {
-        shadow: e3d.render(wall_on_a_floor(), size=(240, 180), look=e3d.Look.studio(shadow=shadow)).color
+        shadow: e3d.render(
+            wall_on_a_floor(), size=(240, 180), look=e3d.Look.studio(shadow=shadow)
+        ).color
         for shadow in ("map", "exact", "none")
     }
     pictures = {shadow: picture.astype(int) for shadow, picture in pictures.items()}

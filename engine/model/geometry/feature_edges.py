@@ -125,9 +125,7 @@ def _sample(
     )
 
 
-def _is_faceted(
-    positions: np.ndarray, faces: np.ndarray, visible: np.ndarray | None
-) -> bool:
+def _is_faceted(positions: np.ndarray, faces: np.ndarray, visible: np.ndarray | None) -> bool:
     """Return whether nearly all faces meet either flat or sharply."""
     welded = _weld(positions, faces, visible)
     blunt = _sharp_edges(welded, _FLAT)

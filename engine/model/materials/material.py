@@ -14,7 +14,7 @@ value it varies. Kernels and reference implement the rest.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -385,7 +385,9 @@ def states_nothing(material: Material) -> bool:
     """
     if is_implied(material):
         return not textures_of(material)
-    return not material._states_color and not says_something(material)
+    if material._states_color or textures_of(material):
+        return False
+    return all(a == b for name, a, b in _words_beside(material) if name != "extras")
 
 
 def says_something(material: Material) -> bool:
@@ -395,6 +397,11 @@ def says_something(material: Material) -> bool:
     the file.
     """
     return bool(textures_of(material)) or _words(material) != _DEFAULT_WORDS
+
+
+def _words_beside(material: Material) -> Iterator[tuple[str, Any, Any]]:
+    """Yield what a material and a default one say, by name."""
+    return zip(_SAID, _words(material), _DEFAULT_WORDS, strict=True)
 
 
 def _words(material: Material) -> list[Any]:

@@ -140,12 +140,15 @@ class Lighting:
     @contextmanager
     def without_shadows(self) -> Iterator[None]:
         """Let set-ups cast no shadows for a while."""
-        casting = [light for node in self._nodes if (light := _direct(node)).shadow != "none"]
-        shadows = [light.shadow for light in casting]
-        switch_shadows([casting], "none")
-        yield
-        for light, shadow in zip(casting, shadows, strict=True):
-            light.shadow = shadow
+        lights = [light for light in map(_direct, self._nodes) if light.shadow != "none"]
+        shadows = [light.shadow for light in lights]
+        for light in lights:
+            light.shadow = "none"
+        try:
+            yield
+        finally:
+            for light, shadow in zip(lights, shadows, strict=True):
+                light.shadow = shadow
 
     def main_direction(self) -> np.ndarray | None:
         """Return the direction, (3,), in which the main light travels now; None of other lights."""

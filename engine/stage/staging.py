@@ -20,7 +20,6 @@ from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
 from .appearance import Appearance
 from .chosen_surroundings import fog_color
-from .drawn_edges import DrawnEdges
 from .filtering import Filtering
 from .finish import finish_for
 from .lighting import (
@@ -34,6 +33,7 @@ from .lighting import (
 from .look import THEMED, Look
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid
+from .overlays.feature_lines import FeatureLines
 from .overlays.grid_lines import grid
 from .overlays.theme import Theme, theme_named
 from .shadow_switch import switch_shadows
@@ -236,13 +236,13 @@ class Staging:
         ambient = light_around(look, self.scene)[0] if lights else None
         return Studio(self.scene, UP_DIRECTIONS[self.up], ambient, self.viewed.places)
 
-    def _make_edges(self) -> DrawnEdges | None:
+    def _make_edges(self) -> FeatureLines | None:
         """Return the feature edges of the model; None if the look draws none."""
         wanted = self.settings.look.feature_edges
         is_painted = self.settings.material is not None or self.viewed.coloring is not None
         if not self.viewed.themed or not wanted or (wanted == "auto" and is_painted):
             return None
-        return DrawnEdges(self.scene, of_all=wanted is True)
+        return FeatureLines(self.scene, of_all=wanted is True)
 
     def _shows_theme(self) -> bool:
         """Return whether the background is the theme's."""

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ._directions import directions, panel, picture, ramp
+from ._directions import directions, panel, picture, ramp, toward
 
 # Panels: centre, half width and height, width of the soft edge, radiance.
 _KEY = ((3.0, 2.6, 2.4), 1.15, 1.0, 0.15), (8.0, 7.8, 7.5)
@@ -45,7 +45,7 @@ def pixels(axes: Sequence[NDArray[np.float64]]) -> NDArray[np.float32]:
         What stands to the right, above and behind the viewer: each along one axis of the world.
     """
     world = directions(_ROWS)
-    rays = [sum(float(axis[k]) * world[k] for k in range(3)) for axis in axes]
+    rays = [toward(axis.tolist(), world) for axis in axes]
     x, y, z = rays
     walls = 0.10 + 0.14 * ramp(0.9, -0.15, y)  # darker above
     walls = walls + 0.24 * ramp(-0.4, 0.9, 0.5 * x + 0.86 * z)  # lighter behind the viewer

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..._native.loaders import frozen
 from ..._native.rasterizer import bound_points
-from . import feature_edges as _features
+from . import _feature_edges as _features
 from . import normals as _normals
 from . import topology as _topology
 

@@ -249,8 +249,8 @@ class _JoinedObjects:
         if staged.part_of is not None:
             self._make_parts(staged.part_of, staged.posing)
         looks = staged.shows_textures, staged.reading, staged.finish
-        version = (self._own.version, self._added.version, self._added, self._room, self.renewals)
-        version += looks
+        made = self._added, self._room, self.renewals
+        version = self._own.version, self._added.version, *made, *looks
         if version != self.version:
             free = [None] * (self._room - len(self._own.objects))
             parts = [self._made[number][1] for number in self.parts]

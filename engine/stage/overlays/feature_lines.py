@@ -15,17 +15,17 @@ from typing import Any
 
 import numpy as np
 
-from .._native.scene_graph import SHOWN
-from ..base import linalg
-from ..base.dirty_tracking import Watch
-from ..model.geometry.derived import derived
-from ..model.geometry.mesh import Mesh
-from ..model.materials.material import Material, states_nothing
-from ..model.scene.instances import InstancedMesh, instance_matrices
-from ..model.scene.nodes import Node
-from ..model.scene.shown import as_shown, placing_poses
-from ..model.scene.staged_scene import StagedScene
-from .views.viewpoint import Sphere
+from ..._native.scene_graph import SHOWN
+from ...base import linalg
+from ...base.dirty_tracking import Watch
+from ...model.geometry.derived import derived
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material, states_nothing
+from ...model.scene.instances import InstancedMesh, instance_matrices
+from ...model.scene.nodes import Node
+from ...model.scene.shown import as_shown, placing_poses
+from ...model.scene.staged_scene import StagedScene
+from ..views.viewpoint import Sphere
 
 #: Dark, and translucent: r, g, b, alpha, 0 to 255.
 COLOR = (24, 26, 30, 150)
@@ -37,7 +37,7 @@ _AWAY = 3.5
 MOST_EDGES, MOST_PARTS = 60_000, 5_000
 
 
-class DrawnEdges:
+class FeatureLines:
     """The feature edges of what a scene shows; found anew when it changes or moves.
 
     Parameters
@@ -109,7 +109,7 @@ class DrawnEdges:
         flags[hidden[hidden >= 0]] = 0
         numbers = arrays.columns["object"][: arrays.count]
         for number, obj in enumerate(objects):
-            edges = None if obj is None else self._edges_of(getattr(obj, "mesh", obj), obj)
+            edges = None if obj is None else self._edges_of(obj)
             if edges is None or not len(edges):
                 continue
             slots = np.flatnonzero((numbers == number) & (flags & SHOWN != 0)).astype(np.int32)
@@ -121,8 +121,9 @@ class DrawnEdges:
                 if count > MOST_EDGES:
                     return
 
-    def _edges_of(self, mesh: Mesh, obj: Any) -> np.ndarray | None:
-        """Return the edges of a mesh that are drawn, (E, 2); None if none are."""
+    def _edges_of(self, obj: Any) -> np.ndarray | None:
+        """Return the edges of an object's mesh that are drawn, (E, 2); None if none are."""
+        mesh: Mesh = getattr(obj, "mesh", obj)
         if self._of_all:
             return derived(mesh, "feature_edges")
         is_tinted = mesh.colors is not None or getattr(obj, "colors", None) is not None

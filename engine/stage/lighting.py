@@ -8,7 +8,7 @@ scene's own lights, if any, are the first set-up.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from typing import cast
 
@@ -24,6 +24,7 @@ from ..model.scene.lights import (
     LIGHTS,
     WHITE_INTENSITY,
     DirectionalLight,
+    DirectLight,
     Light,
     PointLight,
 )
@@ -31,7 +32,6 @@ from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
 from .look import Look
-from .shadow_switch import switch_shadows
 from .views.viewpoint import Sphere
 
 #: Per set-up: the light's direction, in camera space (or the home frame, if fixed), the linear
@@ -63,6 +63,8 @@ _SHADOWLESS = "headlight"
 _LEAST_MAP, _MOST_MAP = 512, 2048
 #: The distance of a map's comparisons, in thousandths of its side: how soft shadows are.
 _SOFTNESS = 1.7
+_MOST_LAMPS = 4  # each draws six maps
+_MAIN = 0.5  # of the brightest: dimmer lights only brighten other lights' shadows
 _IN_ENVIRONMENT = 0.6  # factor for set-ups in an environment, which also lights
 #: Ambient light from above and from below, where there are no surroundings.
 _SKY, _GROUND = linear(0.30, 0.32, 0.36), linear(0.18, 0.17, 0.16)
@@ -239,6 +241,33 @@ class OnlyLight:
 
     def follow(self, pose: np.ndarray) -> None:
         """Do nothing: the light does not follow the camera."""
+
+
+def switch_shadows(groups: Iterable[list[Light]], shadow: LightShadow) -> None:
+    """Switch the shadows of lights on or off.
+
+    Parameters
+    ----------
+    groups : iterable of list of Light
+        Groups of lights that shine together. In a group with more than four point lights, these
+        cast none.
+    shadow : {"none", "map", "exact"}
+        The value of ``shadow`` for the main lights; the others cast none. Ambient lights have no
+        shadow.
+    """
+    for group in groups:
+        lights = [light for light in group if isinstance(light, DirectLight)]
+        main = _main_lights(lights)
+        for light in lights:
+            light.shadow = shadow if light in main else "none"
+
+
+def _main_lights(lights: Sequence[DirectLight]) -> list[DirectLight]:
+    lamps: list[DirectLight] = [light for light in lights if isinstance(light, PointLight)]
+    far = [light for light in lights if light not in lamps]
+    bright = max((light.intensity for light in far), default=0.0)
+    main = [light for light in far if light.intensity >= _MAIN * bright]
+    return main + (lamps if len(lamps) <= _MOST_LAMPS else [])
 
 
 def light_around(look: Look, staged: StagedScene) -> tuple[AmbientLight | None, float]:

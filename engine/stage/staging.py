@@ -29,6 +29,7 @@ from .lighting import (
     OnlyLight,
     light_around,
     placed_light,
+    switch_shadows,
 )
 from .look import THEMED, Look
 from .near_origin import from_file
@@ -36,7 +37,6 @@ from .overlays.box_grid import BoxGrid
 from .overlays.feature_lines import FeatureLines
 from .overlays.grid_lines import grid
 from .overlays.theme import Theme, theme_named
-from .shadow_switch import switch_shadows
 from .stage_settings import Settings
 from .studio import BEHIND, Studio, theme_for
 from .viewed_scene import ViewedScene

@@ -38,7 +38,7 @@ from .views.viewpoint import Sphere
 #: colour, the intensity as a part of the one that shows white.
 SETUPS = {
     "studio": (
-        ((-0.50, -0.85, -0.65), (1.0, 0.97, 0.92), 1.10),
+        ((-0.50, -0.85, -0.65), (1.0, 0.97, 0.92), 1.2),
         ((0.85, -0.10, -0.50), (0.82, 0.90, 1.0), 0.12),
         ((0.20, -0.60, 0.75), (1.0, 1.0, 1.0), 0.30),
     ),

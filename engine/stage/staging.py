@@ -18,7 +18,7 @@ from ..model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
-from .appearance import Appearance
+from .appearance import Appearance, has_faces
 from .chosen_surroundings import fog_color
 from .filtering import Filtering
 from .finish import finish_for
@@ -297,7 +297,10 @@ class Staging:
         if self._edges is not None:
             self._edges.show(False)
         self.alone = None if self.settings.keeps_theme else draw_alone(view)
-        self.theme = self.theme if self.alone is None else theme_for(self.alone)
+        if self.alone is None:
+            self.theme = self.theme
+        else:
+            self.theme = theme_for(self.alone, has_faces(self.viewed.scene))
 
     @property
     def _has_ground(self) -> bool:

@@ -31,8 +31,8 @@ from .views.camera_view import AnyView
 from .views.viewpoint import Sphere
 
 #: The required contrast between a model's outline and its background, as mean difference in 8-bit
-#: codes: for faces, which are shaded, and for points and lines, which are all outline.
-_CONTRAST, _THIN_CONTRAST = 5.0, 100.0
+#: codes: of faces, which are shaded, and of points and lines alone.
+_CONTRAST, _THIN_CONTRAST = 5.0, 60.0
 #: How much farther away the ground is drawn, as a fraction of its distance from the eye.
 BEHIND = 1 / 4
 #: Lines of sight that descend less steeply than this do not show the ground.
@@ -151,21 +151,24 @@ def _square() -> Mesh:
     )
 
 
-def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> Theme:
+def theme_for(
+    picture: np.ndarray, has_faces: bool = True, themes: Iterable[Theme] = (LIGHT, DARK)
+) -> Theme:
     """Return the first theme whose background contrasts enough with a model, or the best one.
 
     Parameters
     ----------
     picture : (H, W, 4) uint8
         The model on a transparent background.
+    has_faces : bool
+        Whether the model has faces, and not only points and lines.
     themes : iterable of Theme
     """
     shows = picture[..., 3] > 0
     around = np.pad(shows, 1, mode="edge")
     inside = around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
     outline = np.nonzero(shows & ~inside)
-    thin = len(outline[0]) / max(int(np.count_nonzero(shows)), 1)
-    needed = _CONTRAST + (_THIN_CONTRAST - _CONTRAST) * thin
+    needed = _CONTRAST if has_faces else _THIN_CONTRAST
     distances = [(_distance(picture, outline, theme), theme) for theme in themes]
     enough = [theme for distance, theme in distances if distance >= needed]
     return enough[0] if enough else max(distances, key=lambda entry: entry[0])[1]

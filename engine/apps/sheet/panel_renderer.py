@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
 from ...model.scene.staged_scene import StagedScene
 from ...model.scene.usage import uses_in
 from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
-from ...stage.appearance import count_points, point_size
+from ...stage.appearance import count_points, has_faces, point_size
 from ...stage.blank import Sight
 from ...stage.coloring import show_numbers
 from ...stage.finish import finish_for
@@ -91,7 +90,7 @@ class PanelRenderer:
         self._drawing = dict(drawing)
         self._cull = viewed.appearance.get("cull", "auto")
         self._points = count_points(self.scene)
-        self.has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
+        self.has_faces = has_faces(self.scene)
         self._renderer: Renderer | None = None
         self._settings = settings_for(look, material=material)
         self.staged = StagedScene(self.scene)
@@ -125,7 +124,7 @@ class PanelRenderer:
         self._lighting.follow(pose)
         with Renderer(_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
-        self.paper = theme_named(self._look.background) or theme_for(color)
+        self.paper = theme_named(self._look.background) or theme_for(color, self.has_faces)
 
     def draw(
         self,

@@ -273,7 +273,10 @@ class Staging:
         is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
         is_plain = is_plain and not split
         if edges is not None:
-            edges.follow(view.eye(), self.viewed.bounds) if is_plain else edges.show(False)
+            if is_plain and appearance.cull != "front":
+                edges.follow(view.eye(), self.viewed.bounds, only_closed=appearance.cull == "back")
+            else:
+                edges.show(False)
         if studio is not None and self._has_ground:
             if is_plain and not self._transparent:
                 light = self.lighting.main_direction()
@@ -336,7 +339,8 @@ class Staging:
         """Switch the grid under the model on or off."""
         self.settings.grid = shown
         if shown and self._grid is None:
-            self._grid = self.scene.beside.add(self._lines(), name="grid")
+            self._grid = self.scene.beside.add(self._lines(), name="grid", cast_shadows=False)
+            self._grid.receive_shadows = False
         if self._grid is not None:
             self._grid.visible = shown
 

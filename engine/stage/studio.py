@@ -125,6 +125,7 @@ class Studio:
         """Return the ground with a shadow on it; the node is added on first use."""
         if self._ground is None:
             self._ground = self._staged.beside.add(self._square, name="shadow", cast_shadows=False)
+            self._ground.receive_shadows = False
         material = self._square.materials[0]
         known = textures_of(material).get("texture")
         if known is None or (known.pixels[..., 3] != alphas).any():

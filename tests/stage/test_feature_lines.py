@@ -154,3 +154,25 @@ def test_hidden_objects_have_no_lines():
         renderer.visibility.toggle_object(0)
         picture = renderer.draw(view).color.astype(int)
     assert np.abs(np.diff(picture[..., 1], axis=1)).max() <= 2  # nothing but the background
+
+
+def test_where_backs_are_left_out_open_meshes_have_no_lines():
+    scene = e3d.Scene()
+    scene.add(e3d.plane((2.0, 2.0)))
+    below = e3d.OrthographicCamera(1.5), e3d.look_at((0, -3, 1), (0, 0, 0))
+    assert lines_on(scene, camera=below, cull="none").any()
+    assert not lines_on(scene, camera=below, cull="back").any()
+    closed = e3d.Scene()
+    closed.add(e3d.box())
+    assert np.array_equal(
+        lines_on(closed, camera=below, cull="back"), lines_on(closed, camera=below, cull="none")
+    )
+
+
+def test_wild_vertices_have_no_lines():
+    box = e3d.box()
+    positions = box.positions.copy()
+    positions[0] = np.inf
+    with pytest.warns(e3d.Engine3DWarning, match="not finite"):
+        wild = e3d.Mesh(positions, box.faces)
+    assert lines_on(wild).any()

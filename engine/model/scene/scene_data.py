@@ -32,7 +32,7 @@ from ._posing import (
 from .cameras import Camera
 from .instances import InstancedMesh
 from .lights import LIGHTS
-from .node_arrays import NodeArrays
+from .node_arrays import CASTS_NONE, RECEIVES_NONE, NodeArrays
 from .nodes import Node
 
 if TYPE_CHECKING:
@@ -174,7 +174,8 @@ class SceneData:
 
     def shadow_bounds(self) -> NDArray[np.float64]:
         """Return the box, as `bounds`, of all that casts or receives shadows."""
-        return self.bounds()
+        self.update()
+        return box_of_shadows(self.arrays)
 
     def add(self, scene: Scene, obj: SceneObject | None, name: str, parent: Node | None) -> Node:
         """Add a node to the scene, at its parent's pose."""
@@ -313,6 +314,17 @@ def box_around(arrays: Any) -> NDArray[np.float64]:
     """Return the box around the visible objects of given rows, as of the last update."""
     box = np.empty(OBJECT_BOX)
     around = union(arrays.columns["bounds"][: arrays.count], box)
+    return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
+
+
+def box_of_shadows(arrays: Any) -> NDArray[np.float64]:
+    """Return `box_around` what casts or receives shadows."""
+    columns, count = arrays.columns, arrays.count
+    takes_part = columns["unshadowed"][:count] != CASTS_NONE | RECEIVES_NONE
+    if takes_part.all():
+        return box_around(arrays)
+    box = np.empty(OBJECT_BOX)
+    around = union(np.ascontiguousarray(columns["bounds"][:count][takes_part]), box)
     return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
 
 

@@ -19,7 +19,7 @@ from ..materials.textures import Reading
 from ._objects import NO_BOX
 from .node_arrays import NodeArrays
 from .nodes import Node
-from .scene_data import SceneData, box_around
+from .scene_data import SceneData, box_around, box_of_shadows
 from .shown import as_shown
 
 if TYPE_CHECKING:
@@ -79,7 +79,8 @@ class StagedData:
         return box_around(self.arrays)
 
     def shadow_bounds(self) -> NDArray[np.float64]:
-        return self.own.bounds()  # what is beside a scene has no part in shadows
+        self.update()
+        return box_of_shadows(self.arrays)
 
     def update(self, threads: int = 1) -> None:
         """Update both trees, then join them."""

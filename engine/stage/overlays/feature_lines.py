@@ -21,10 +21,12 @@ from ...base.dirty_tracking import Watch
 from ...model.geometry.derived import derived
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material, states_nothing
+from ...model.motion.posed_mesh import PosedMesh
 from ...model.scene.instances import InstancedMesh, instance_matrices
 from ...model.scene.nodes import Node
 from ...model.scene.shown import as_shown, placing_poses
 from ...model.scene.staged_scene import StagedScene
+from ...rendering.draw_list.closed_meshes import holes_of
 from ..views.viewpoint import Sphere
 
 #: Dark, and translucent: r, g, b, alpha, 0 to 255.
@@ -58,10 +60,10 @@ class FeatureLines:
 
     def show(self, shown: bool) -> None:
         """Show or hide the lines, if there are any."""
-        if self._node is not None:
+        if self._node is not None and self._node.visible != shown:
             self._node.visible = shown
 
-    def follow(self, eye: np.ndarray, bounds: Sphere) -> None:
+    def follow(self, eye: np.ndarray, bounds: Sphere, only_closed: bool) -> None:
         """Show the lines as seen from an eye: the viewer's position and 1, or the direction and 0.
 
         Parameters
@@ -69,38 +71,43 @@ class FeatureLines:
         eye : (4,) ndarray of float64
         bounds : Sphere
             The scene's.
+        only_closed : bool
+            Whether to draw only those of closed meshes, because backs of faces are left out: there
+            may be no face where an open mesh has a line.
         """
-        self._find()
+        self._find(only_closed)
         if self._node is None:
             return
         pose, away = np.eye(4), NEARER if eye[3] else NEARER * _AWAY * bounds.radius
         pose[:3, 3] = eye[:3] * away
         if eye[3]:
             pose[:3, :3] *= 1.0 - NEARER
-        self._node.pose = pose
-        self._node.visible = True
+        if not np.array_equal(self._node.pose, pose):
+            self._node.pose = pose
+        self.show(True)
 
-    def _find(self) -> None:
-        """Make the lines anew, unless nothing has changed."""
+    def _find(self, only_closed: bool) -> None:
+        """Make the lines anew, perhaps of closed meshes only, unless nothing has changed."""
         data = self._staged.data
         data.own.update()
         posing = None if data.posing is None else data.posing.moment
-        state = data.own.arrays.updated, data.own.objects.version, posing, data.hidden
+        state = data.own.arrays.updated, data.own.objects.version, posing, data.hidden, only_closed
         if state == self._found_in and not self._watch.found():
             return
         self._found_in, self._watch = state, Watch(_things(data.own.objects.objects))
         if self._node is not None:
             self._staged.beside.remove(self._node)
             self._node = None
-        ends = list(itertools.islice(self._ends(), MOST_PARTS + 1))
+        ends = list(itertools.islice(self._ends(only_closed), MOST_PARTS + 1))
         count = sum(map(len, ends))
         if 0 < count <= 2 * MOST_EDGES and len(ends) <= MOST_PARTS:
             material = Material(color=COLOR, alpha_mode="blend", unlit=True)
             lines = np.arange(count, dtype=np.int32).reshape(-1, 2)
             made = Mesh(np.concatenate(ends), lines=lines, materials=[material])
             self._node = self._staged.beside.add(made, name="edges", cast_shadows=False)
+            self._node.receive_shadows = False
 
-    def _ends(self) -> Iterator[np.ndarray]:
+    def _ends(self, only_closed: bool) -> Iterator[np.ndarray]:
         """Yield the ends of edges, (2 E, 3) in world space, until there are too many."""
         data, count = self._staged.data, 0
         arrays, objects = data.own.arrays, data.own.objects.objects
@@ -110,13 +117,15 @@ class FeatureLines:
         numbers = arrays.columns["object"][: arrays.count]
         for number, obj in enumerate(objects):
             edges = None if obj is None else self._edges_of(obj)
-            if edges is None or not len(edges):
+            if edges is None or not len(edges) or (only_closed and not _is_closed(obj)):
                 continue
             slots = np.flatnonzero((numbers == number) & (flags & SHOWN != 0)).astype(np.int32)
             shape: Any = as_shown(obj)
             for pose in _poses(shape, placing_poses(arrays, slots)):
                 mesh = getattr(shape, "mesh", shape)
-                yield linalg.transform_points(pose, mesh.positions[edges.reshape(-1)])
+                with np.errstate(over="ignore", invalid="ignore"):
+                    placed = linalg.transform_points(pose, mesh.positions[edges.reshape(-1)])
+                yield _finite(placed)
                 count += len(edges)
                 if count > MOST_EDGES:
                     return
@@ -130,6 +139,22 @@ class FeatureLines:
         if is_tinted or not all(map(states_nothing, mesh.materials)):
             return None
         return derived(mesh, "faceted_edges")
+
+
+def _is_closed(obj: Any) -> bool:
+    """Return whether fronts hide all backs of an object's mesh."""
+    holes = None if isinstance(obj, PosedMesh) else holes_of(getattr(obj, "mesh", obj))
+    return holes is not None and not len(holes.ends)
+
+
+def _finite(ends: np.ndarray) -> np.ndarray:
+    """Return the ends, (2 E, 3), of lines both of whose ends are finite."""
+    with np.errstate(over="ignore"):
+        ends = ends.astype(np.float32)
+    if np.isfinite(ends).all():
+        return ends
+    kept = np.isfinite(ends.reshape(-1, 6)).all(axis=1)
+    return ends.reshape(-1, 2, 3)[kept].reshape(-1, 3)
 
 
 def _poses(shape: Any, poses: np.ndarray) -> Iterator[np.ndarray]:

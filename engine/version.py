@@ -6,4 +6,4 @@ The package's metadata reads the version from here. docs/versions.md says when e
 __version__ = "0.1.0"
 
 #: Grows with every release that draws a picture with other bytes than the release before.
-PICTURES = 1
+PICTURES = 2

@@ -7,7 +7,6 @@ objects, so that every scene shows it.
 
 from __future__ import annotations
 
-import hashlib
 import os
 import threading
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
@@ -304,6 +303,8 @@ def size_of(thing: Mesh | Texture) -> int:
 
 def _content(thing: Any) -> tuple[Any, ...]:
     """Return a key that is equal for things with equal content, regardless of names."""
+    import hashlib  # here, because it takes milliseconds
+
     digest = hashlib.blake2b(digest_size=20)
     if isinstance(thing, Texture):
         digest.update(thing.pixels.data)

@@ -22,6 +22,7 @@ from ..model.scene.gradients import Gradient
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
 from ..model.scene.surroundings import Background
+from ..model.scene.usage import uses_in
 from ..rendering.options import WHITE, RenderOptions
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
@@ -119,6 +120,11 @@ def count_points(scene: Scene) -> int:
         elif isinstance(shape, InstancedMesh):
             count += len(shape.mesh.points) * len(shape.poses)
     return count
+
+
+def has_faces(scene: Scene) -> bool:
+    """Return whether a scene has more than points and lines."""
+    return any(isinstance(thing, Mesh) and len(thing.faces) > 0 for thing in uses_in([scene]))
 
 
 def following(value: Value, choices: Sequence[Value], step: int = 1) -> Value:

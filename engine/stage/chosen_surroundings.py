@@ -5,20 +5,24 @@ In: plain values. Out: a staged scene with these settings; the scene keeps its o
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import cast
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from ..choices import Color
+from ..model.environments import cove
 from ..model.environments.environment import Environment
 from ..model.materials.display_colors import display_color
-from ..model.materials.material import Material
+from ..model.materials.material import Material, states_nothing
 from ..model.scene.gradients import Gradient
+from ..model.scene.orbiting import home_axes
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
 from ..model.scene.usage import uses_in
-
-_USUAL_INTENSITY = 0.5  # of the automatic environment, beside a scene's own lights
 
 
 @dataclass
@@ -34,9 +38,8 @@ class Surroundings:
         Radians.
     intensity : float or None
     shows : bool
-        Whether the environment is the background; if set, a scene without an environment gets the
-        studio. So do scenes with physically based materials, so that metals have something to
-        reflect.
+        Whether the environment is the background; if set, a scene without an environment gets
+        `Environment.studio`.
     blur : float or None
     """
 
@@ -47,20 +50,26 @@ class Surroundings:
     shows: bool = False
     blur: float | None = None
 
-    def put(self, scene: StagedScene, automatic: bool = True) -> None:
+    def put(self, scene: StagedScene, up: ArrayLike | None = None) -> None:
         """Apply the settings to a scene.
 
         Parameters
         ----------
         scene : StagedScene
-        automatic : bool
-            Whether physically based materials get an environment to reflect.
+        up : (3,) sequence of float, optional
+            The world's up direction, if physically based materials of a scene without environment
+            reflect the cove. Others only look as if they did, since it takes time to prepare.
         """
         if self.environment is not None or self.without:
             scene.environment = self.environment
-        elif automatic and scene.environment is None and _has_physical(scene.scene):
-            scene.environment = Environment.studio()
-            scene.environment_intensity = _USUAL_INTENSITY
+        elif (
+            up is not None
+            and not self.shows
+            and scene.scene.environment is None
+            and _has_physical(scene.scene)
+        ):
+            x, y, z = np.asarray(up, np.float64).tolist()
+            scene.environment = _cove((x, y, z))
         if self.rotation is not None:
             scene.environment_rotation = self.rotation
         if self.intensity is not None:
@@ -73,11 +82,19 @@ class Surroundings:
 
 
 def _has_physical(scene: Scene) -> bool:
-    """Return whether a scene shows lit physically based materials."""
+    """Return whether a scene shows lit physically based materials that somebody chose."""
     return any(
-        isinstance(thing, Material) and thing.is_physical and not thing.unlit
+        isinstance(thing, Material)
+        and thing.is_physical
+        and not thing.unlit
+        and not states_nothing(thing)
         for thing in uses_in([scene])
     )
+
+
+@functools.lru_cache(maxsize=6)  # as many as there are axes to stand along
+def _cove(up: tuple[float, float, float]) -> Environment:
+    return Environment(cove.pixels(tuple(home_axes(up))), name="cove")
 
 
 def fog_color(background: Background) -> tuple[float, ...] | None:

@@ -13,6 +13,7 @@ slant. Sums are integers that 32-bit floats hold exactly: they are the same on e
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -35,9 +36,11 @@ from .views.viewpoint import Sphere
 REACH, SIDE = 2.0, 512
 #: Darkness where none of the sky's light arrives, and none of the key light.
 _SKY, _KEY = 0.46, 0.3
-#: Blur of both, and offset of the key light's shadow to the left and back, per height.
+#: Blur of both, per height.
 _SKY_SPREAD, _KEY_SPREAD = 0.45, 0.18
+#: How far the key light's shadow reaches per height: usually, and at most.
 _LEFT, _BACK = 0.42, 0.5
+_LONGEST = 0.9
 #: Heights of the slices in radii: the first is at the ground, each next one higher by a fixed
 #: factor.
 _HEIGHTS = (0.0, *(0.02 * 1.5**k for k in range(12)))
@@ -72,7 +75,9 @@ class GroundShadow:
         self._kept: dict[float, tuple[tuple[object, ...], np.ndarray]] = {}
         self._shapes = _Shapes(ground)
 
-    def alphas(self, lowest: float, sphere: Sphere, azimuth: float, cull: FrameCull) -> np.ndarray:
+    def alphas(
+        self, lowest: float, sphere: Sphere, slant: tuple[float, float], cull: FrameCull
+    ) -> np.ndarray:
         """Return the darkness of the ground; rows go from back to front.
 
         Parameters
@@ -81,8 +86,8 @@ class GroundShadow:
             Height of the ground along the up direction.
         sphere : Sphere
             The scene's bounding sphere; determines the size of the square.
-        azimuth : float
-            The viewer's azimuth in radians; the key light stands behind their right shoulder.
+        slant : (float, float)
+            How far the key light's shadow reaches to the right and back, per height.
         cull : str
             As in `Renderer.render`: culled faces cast no shadow.
 
@@ -91,8 +96,6 @@ class GroundShadow:
         (SIDE, SIDE) ndarray of uint8
             0 at the edges.
         """
-        turned, tipped = cosine(azimuth), sine(azimuth)
-        slant = -_LEFT * turned - _BACK * tipped, _LEFT * tipped - _BACK * turned
         stands = lowest, sphere, cull, self._state()
         sky = self._darkness((0.0, 0.0), _SKY_SPREAD, stands)
         key = self._darkness(slant, _KEY_SPREAD, stands)
@@ -156,6 +159,27 @@ class GroundShadow:
             self._scene, (camera, pose), outputs=("ndc_depth",), cull=cull
         )
         return (frame.ndc_depth + np.float32(1.0)) * np.float32(0.5)
+
+
+def usual_slant(azimuth: float) -> tuple[float, float]:
+    """Return the slant of light from behind the right shoulder of a viewer at an azimuth."""
+    turned, tipped = cosine(azimuth), sine(azimuth)
+    return -_LEFT * turned - _BACK * tipped, _LEFT * tipped - _BACK * turned
+
+
+def slant_along(direction: np.ndarray, axes: np.ndarray) -> tuple[float, float]:
+    """Return the slant of light that travels in a direction, (3,); of flat light the longest.
+
+    Parameters
+    ----------
+    direction : (3,) ndarray of float64
+    axes : (3, 3) ndarray of float64
+        As for `GroundShadow`.
+    """
+    right, rise, back = (float(linalg.dot(direction, axis)) for axis in axes)
+    aside = math.sqrt(right * right + back * back)
+    reach = max(-rise, aside / _LONGEST) or 1.0
+    return right / reach, back / reach
 
 
 class _Shapes:

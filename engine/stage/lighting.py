@@ -8,32 +8,38 @@ scene's own lights, if any, are the first set-up.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..base import linalg
+from ..choices import LightShadow
+from ..model.environments.cove import PROBE
 from ..model.materials.linear_colors import linear
+from ..model.scene.ambient_lights import AmbientLight, HemisphereLight, LightProbe
 from ..model.scene.lights import (
     LIGHTS,
     WHITE_INTENSITY,
     DirectionalLight,
+    DirectLight,
     Light,
     PointLight,
 )
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
+from .look import Look
 from .views.viewpoint import Sphere
 
 #: Per set-up: the light's direction, in camera space (or the home frame, if fixed), the linear
 #: colour, the intensity as a part of the one that shows white.
 SETUPS = {
     "studio": (
-        ((-0.50, -0.60, -0.80), (1.0, 0.97, 0.92), 0.74),
-        ((0.85, -0.10, -0.50), (0.82, 0.90, 1.0), 0.30),
+        ((-0.50, -0.85, -0.65), (1.0, 0.97, 0.92), 1.2),
+        ((0.85, -0.10, -0.50), (0.82, 0.90, 1.0), 0.12),
         ((0.20, -0.60, 0.75), (1.0, 1.0, 1.0), 0.30),
     ),
     "headlight": (((0.0, 0.0, -1.0), (1.0, 1.0, 1.0), 1.0),),
@@ -51,7 +57,17 @@ OWN_LIGHTS = "scene"
 #: The set-up without lights: the renderer lights the scene from the camera.
 NO_LIGHTS = "plain"
 _UNTURNED = (OWN_LIGHTS, NO_LIGHTS)
+#: The set-up whose shadows are hidden behind what casts them.
+_SHADOWLESS = "headlight"
+#: Texels a side of shadow maps: about as many as the shorter side of the picture has pixels.
+_LEAST_MAP, _MOST_MAP = 512, 2048
+#: The distance of a map's comparisons, in thousandths of its side: how soft shadows are.
+_SOFTNESS = 1.7
+_MOST_LAMPS = 4  # each draws six maps
+_MAIN = 0.5  # of the brightest: dimmer lights only brighten other lights' shadows
 _IN_ENVIRONMENT = 0.6  # factor for set-ups in an environment, which also lights
+#: Ambient light from above and from below, where there are no surroundings.
+_SKY, _GROUND = linear(0.30, 0.32, 0.36), linear(0.18, 0.17, 0.16)
 
 
 class Lighting:
@@ -64,7 +80,7 @@ class Lighting:
     up : (3,) sequence of float
         The world's up direction.
     intensity : float
-        Factor for the set-ups. An environment dims them.
+        Factor for the set-ups.
     first : str
         The first set-up of a scene without lights: a key of `SETUPS`, or `NO_LIGHTS`.
     """
@@ -83,8 +99,6 @@ class Lighting:
         if first == NO_LIGHTS:
             self._lights[NO_LIGHTS] = []
         self._home = np.stack(tuple(home_axes(up)), axis=1)
-        if staged.environment is not None:
-            intensity *= _IN_ENVIRONMENT
         intensity *= WHITE_INTENSITY
         for name, lights in SETUPS.items():
             self._lights[name] = [
@@ -107,6 +121,43 @@ class Lighting:
     def groups(self) -> list[list[Light]]:
         """Return the groups of lights that shine together, one for each set-up."""
         return list(self._lights.values())
+
+    def cast_shadows(self, shadow: LightShadow) -> None:
+        """Let the main lights of set-ups cast shadows; the scene's own lights stay as they are."""
+        others = (OWN_LIGHTS, _SHADOWLESS)
+        switch_shadows(
+            [lights for name, lights in self._lights.items() if name not in others], shadow
+        )
+
+    def soften(self, size: tuple[int, int]) -> None:
+        """Fit the shadow maps of set-ups to a picture of a given size, so that shadows are soft."""
+        side = _LEAST_MAP
+        while side < min(size) and side < _MOST_MAP:
+            side *= 2
+        for name, lights in self._lights.items():
+            for light in lights:
+                if name != OWN_LIGHTS and isinstance(light, DirectionalLight):
+                    _soften(light, side)
+
+    @contextmanager
+    def without_shadows(self) -> Iterator[None]:
+        """Let set-ups cast no shadows for a while."""
+        lights = [light for light in map(_direct, self._nodes) if light.shadow != "none"]
+        shadows = [light.shadow for light in lights]
+        for light in lights:
+            light.shadow = "none"
+        try:
+            yield
+        finally:
+            for light, shadow in zip(lights, shadows, strict=True):
+                light.shadow = shadow
+
+    def main_direction(self) -> np.ndarray | None:
+        """Return the direction, (3,), in which the main light travels now; None of other lights."""
+        if self.name in _UNTURNED:
+            return None
+        node = self._nodes[0]
+        return linalg.dot(node.pose[:3, :3], _direct(node).direction)
 
     def follow(self, pose: np.ndarray) -> None:
         """Rotate the set-up with the camera, whose pose is (4, 4)."""
@@ -167,6 +218,19 @@ class OnlyLight:
     def choose(self, name: str) -> None:
         """Do nothing: there is only one set-up."""
 
+    def without_shadows(self) -> nullcontext[None]:
+        """Do nothing."""
+        return nullcontext()
+
+    def soften(self, size: tuple[int, int]) -> None:
+        """Do nothing: only the shadows of set-ups are soft."""
+
+    def main_direction(self) -> np.ndarray | None:
+        """Return the direction, (3,), in which a directional light travels, as `Lighting` does."""
+        if not isinstance(self._node.object, DirectionalLight):
+            return None
+        return linalg.dot(self._node.pose[:3, :3], self._node.object.direction)
+
     def turn(self, pose: np.ndarray, dx: float, dy: float) -> bool:
         """Rotate a directional light as `Lighting.turn` does; return whether it is one."""
         if isinstance(self._node.object, PointLight):
@@ -177,6 +241,46 @@ class OnlyLight:
 
     def follow(self, pose: np.ndarray) -> None:
         """Do nothing: the light does not follow the camera."""
+
+
+def switch_shadows(groups: Iterable[list[Light]], shadow: LightShadow) -> None:
+    """Switch the shadows of lights on or off.
+
+    Parameters
+    ----------
+    groups : iterable of list of Light
+        Groups of lights that shine together. In a group with more than four point lights, these
+        cast none.
+    shadow : {"none", "map", "exact"}
+        The value of ``shadow`` for the main lights; the others cast none. Ambient lights have no
+        shadow.
+    """
+    for group in groups:
+        lights = [light for light in group if isinstance(light, DirectLight)]
+        main = _main_lights(lights)
+        for light in lights:
+            light.shadow = shadow if light in main else "none"
+
+
+def _main_lights(lights: Sequence[DirectLight]) -> list[DirectLight]:
+    lamps: list[DirectLight] = [light for light in lights if isinstance(light, PointLight)]
+    far = [light for light in lights if light not in lamps]
+    bright = max((light.intensity for light in far), default=0.0)
+    main = [light for light in far if light.intensity >= _MAIN * bright]
+    return main + (lamps if len(lamps) <= _MOST_LAMPS else [])
+
+
+def light_around(look: Look, staged: StagedScene) -> tuple[AmbientLight | None, float]:
+    """Return the light from all around in a look, and the factor for set-ups beside it.
+
+    None: the look has no lights. If the scene has an environment, that is the light instead.
+    """
+    is_surrounded = staged.environment is not None
+    if look.lights is None:
+        return None, _IN_ENVIRONMENT if is_surrounded else 1.0
+    if look.environment:
+        return LightProbe(PROBE), _IN_ENVIRONMENT
+    return HemisphereLight(_SKY, _GROUND), _IN_ENVIRONMENT if is_surrounded else 1.0
 
 
 def placed_light(
@@ -210,6 +314,17 @@ def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:
 
 def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.stack([linalg.dot(a, column) for column in b.T], axis=1)
+
+
+def _direct(node: Node) -> DirectionalLight:
+    return cast(DirectionalLight, node.object)
+
+
+def _soften(light: DirectionalLight, side: int) -> None:
+    """Give a light shadow maps with a given side, and their usual softness."""
+    if light.shadow == "map" and (light.shadow_map_size, light.shadow_taps) != (side, 5):
+        light.shadow_map_size, light.shadow_taps = side, 5
+        light.shadow_radius = _SOFTNESS * side / 1000
 
 
 def _pose_of(rotation: np.ndarray) -> np.ndarray:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, fields
-from typing import Any, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 from ..base.calls import refuse_unknown
 from ..base.numbers import shown
 from ..base.validation import choose, flag, not_negative
-from ..choices import Backdrop, ColorLike, LightSetup, LookName, ToneMapping
+from ..choices import Backdrop, ColorLike, LightSetup, LightShadow, LookName, ToneMapping
 from ..errors import InvalidArgumentError
 from ..model.environments.environment import Environment
 from ..model.materials.colors import check_color
@@ -47,8 +47,15 @@ class Look:
     ground : bool
         Whether the model casts a soft shadow on an invisible ground.
     environment : bool
-        Whether physically based materials reflect `Environment.studio` if the scene has no
-        environment.
+        Whether surfaces reflect a studio if the scene has no environment: grey walls, a light
+        floor, soft boxes.
+    shadow : {"none", "map", "exact"}
+        The shadows that the brightest of these lights cast: soft ones with ``"map"``. The scene's
+        own lights keep theirs.
+    feature_edges : bool or "auto"
+        Whether the edges of faceted meshes are drawn thin: sharp ones and borders, those that show.
+        ``"auto"`` draws them on meshes that state no material and whose faces mostly meet either
+        flat or sharply, as those of machine parts do.
     tone_mapping, ambient_occlusion
         As in `RenderOptions`.
     """
@@ -58,6 +65,8 @@ class Look:
     background: Backdrop | ColorLike | Gradient | Environment | None = "auto"
     ground: bool = True
     environment: bool = True
+    shadow: LightShadow = "map"
+    feature_edges: bool | Literal["auto"] = "auto"
     tone_mapping: ToneMapping = "neutral"
     ambient_occlusion: bool = True
 
@@ -66,13 +75,16 @@ class Look:
             choose(self.lights, get_args(LightSetup), "lights")
         not_negative(self.light_intensity, "light_intensity")
         choose(self.tone_mapping, _TONE_MAPPINGS, "tone_mapping")
+        choose(self.shadow, get_args(LightShadow), "shadow")
+        if self.feature_edges != "auto":
+            flag(self.feature_edges, "feature_edges")
         for name in ("ground", "environment", "ambient_occlusion"):
             flag(getattr(self, name), name)
         vars(self)["background"] = _background(self.background)
 
     @classmethod
     def studio(cls, **changes: Any) -> Look:
-        """Return the default look: three soft lights, a shadow on the ground, a gradient.
+        """Return the default look: three lights, soft shadows, a gradient.
 
         Parameters
         ----------
@@ -154,6 +166,8 @@ _PLAIN = Look(
     background="scene",
     ground=False,
     environment=False,
+    shadow="none",
+    feature_edges=False,
     tone_mapping="none",
     ambient_occlusion=False,
 )

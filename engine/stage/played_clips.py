@@ -6,15 +6,23 @@ viewed scene plays the clips, or holds their pose at the time.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..model.motion.clips import AnimationClip
 from ..model.motion.player import AnimationPlayer
-from .scene_bounds import sphere_of_box
+from .scene_bounds import sphere_of_points, world_points
 from .viewed_scene import NotInModelError, ViewedScene
 
-#: At this many times of a clip, the scene's extent is measured.
-LOOKS = 16
+#: The scene's extent is measured at so many times of a clip: so many a second, within limits, and
+#: fewer for scenes of very many points.
+RATE = 12
+LEAST_LOOKS, MOST_LOOKS = 16, 96
+MOST_POINTS = 1_000_000
+#: Cells per side of the grid with which the outermost points are found, and of how many points that
+#: is done at once.
+CELLS, MANY = 128, 60_000
 
 
 def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip, ...]:
@@ -56,18 +64,47 @@ def play_clips(viewed: ViewedScene, index: int | None = None) -> None:
     viewed.player = player
     viewed.period = player.duration or viewed.period
     viewed.plays = True
-    box = _reach(viewed, player)
     viewed.update = player.seek
-    viewed.focus = np.array([[box[k >> a & 1][a] for a in range(3)] for k in range(8)])
-    viewed.bounds = sphere_of_box(box)
+    viewed.swept = _swept(viewed, player)
+    viewed.bounds = sphere_of_points(viewed.swept)
     player.seek(0.0)
 
 
-def _reach(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
-    """Return the box of the scene over all times, (2, 3), estimated from samples."""
-    boxes = []
-    for number in range(LOOKS):
-        player.seek(viewed.period * number / LOOKS)
-        boxes.append(viewed.scene.bounds)
-    lows, highs = zip(*boxes, strict=True)
-    return np.stack([np.min(lows, axis=0), np.max(highs, axis=0)])
+def _swept(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
+    """Return points that bound the scene at all times as tightly as its vertices do, (N, 3).
+
+    At the times between those that are looked at, it may reach a little farther.
+    """
+    found: list[np.ndarray] = []
+    looks = _looks(viewed.period, sum(map(len, world_points(viewed.scene))))
+    for number in range(looks):
+        player.seek(viewed.period * number / looks)
+        points = np.concatenate([*world_points(viewed.scene), np.zeros((0, 3))])
+        found.append(_outermost(points) if len(points) > MANY else points)
+    swept = _outermost(np.concatenate(found))
+    return swept if len(swept) else viewed.scene.bounds
+
+
+def _looks(period: float, points: int) -> int:
+    """Return at how many times to look at a scene of so many points."""
+    wanted = min(RATE * period, MOST_POINTS / max(points, 1))
+    return max(LEAST_LOOKS, min(math.ceil(wanted), MOST_LOOKS))
+
+
+def _outermost(points: np.ndarray) -> np.ndarray:
+    """Return places around points, (N, 3): corners of the outermost cells of a grid with points.
+
+    They are farther out than the points by a cell's side at most.
+    """
+    if len(points) <= CELLS:
+        return points
+    low, size = points.min(axis=0), np.ptp(points, axis=0)
+    with np.errstate(all="ignore"):
+        shares = np.nan_to_num((points - low) / size)
+    cells = np.clip(shares * CELLS, 0, CELLS - 1).astype(np.intp)
+    filled = np.zeros((CELLS * CELLS, CELLS), bool)
+    filled[cells[:, 0] * CELLS + cells[:, 1], cells[:, 2]] = True
+    columns = np.flatnonzero(filled.any(axis=1))
+    ends = [filled[columns].argmax(axis=1), CELLS - 1 - filled[columns, ::-1].argmax(axis=1)]
+    places = np.concatenate([np.stack([*divmod(columns, CELLS), end], axis=1) for end in ends])
+    return low + size * ((places + (2 * places >= CELLS)) / CELLS)

@@ -7,7 +7,7 @@ ignored; instances count as their boxes.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -65,6 +65,14 @@ def _reaches(scene: Scene, center: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return slots[order], reaches[order]
 
 
+def sphere_of_points(points: np.ndarray) -> Sphere:
+    """Return the sphere around the middle of points, (N, 3); around a single place, radius one."""
+    center = (points.min(axis=0) + points.max(axis=0)) / 2
+    offsets = points - center
+    farthest = float(linalg.dot(offsets, offsets).max())
+    return Sphere(tuple(center.tolist()), math.sqrt(farthest) or 1.0)
+
+
 def sphere_of_box(box: np.ndarray) -> Sphere:
     """Return the sphere around a box, (2, 3); an empty box gives radius one."""
     center, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
@@ -89,11 +97,22 @@ def turning_outline(scene: Scene, up: ArrayLike) -> np.ndarray:
     (N, 3) ndarray of float64
         World space. An empty scene gets rings of radius one.
     """
+    return _turning_outline(world_points(scene), scene.bounds, up)
+
+
+def turning_outline_of_points(points: np.ndarray, up: ArrayLike) -> np.ndarray:
+    """Return points around others, (N, 3), as `turning_outline` does."""
+    bounds = np.stack([points.min(axis=0), points.max(axis=0)])
+    return _turning_outline([points], bounds, up)
+
+
+def _turning_outline(parts: Iterable[np.ndarray], bounds: np.ndarray, up: ArrayLike) -> np.ndarray:
+    """Return rings around points, given in parts, about the axis through the middle of bounds."""
     right, up, back = home_axes(up)
-    low, high = scene.bounds
+    low, high = bounds
     center = (low + high) / 2
     rises, squares = [np.zeros(1)], [np.zeros(1)]
-    for points in _world_points(scene):
+    for points in parts:
         offsets = points - center
         rises.append(linalg.dot(offsets, up))
         across, along = linalg.dot(offsets, right), linalg.dot(offsets, back)
@@ -122,7 +141,7 @@ def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
     return list(zip([0.0, *widest], [*widest, 0.0], strict=True))
 
 
-def _world_points(scene: Scene) -> Iterator[np.ndarray]:
+def world_points(scene: Scene) -> Iterator[np.ndarray]:
     """Yield the finite vertices of visible meshes, (N, 3) in world space; boxes for instances."""
     scene.data.update()
     for node in scene.nodes:
@@ -131,7 +150,7 @@ def _world_points(scene: Scene) -> Iterator[np.ndarray]:
 
 
 def _points_of(node: Node) -> Iterator[np.ndarray]:
-    """Yield the finite vertices of a node's mesh, as `_world_points`; nothing without a mesh."""
+    """Yield the finite vertices of a node's mesh, as `world_points`; nothing without a mesh."""
     points = _outline(node)
     if points is not None:
         with np.errstate(over="ignore", invalid="ignore"):

@@ -18,16 +18,25 @@ from ..model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
-from .appearance import Appearance
+from .appearance import Appearance, has_faces
 from .chosen_surroundings import fog_color
 from .filtering import Filtering
-from .lighting import NO_LIGHTS, OWN_LIGHTS, Lighting, OnlyLight, placed_light
+from .finish import finish_for
+from .lighting import (
+    NO_LIGHTS,
+    OWN_LIGHTS,
+    Lighting,
+    OnlyLight,
+    light_around,
+    placed_light,
+    switch_shadows,
+)
 from .look import THEMED, Look
 from .near_origin import from_file
 from .overlays.box_grid import BoxGrid
+from .overlays.feature_lines import FeatureLines
 from .overlays.grid_lines import grid
 from .overlays.theme import Theme, theme_named
-from .shadow_switch import switch_shadows
 from .stage_settings import Settings
 from .studio import BEHIND, Studio, theme_for
 from .viewed_scene import ViewedScene
@@ -87,10 +96,8 @@ class Staging:
             scene.exposure = settings.exposure
         self._take_theme()
         self._lay_background()
-        reflects = settings.look.environment and not self._is_lit_scene
-        settings.surroundings.put(scene, reflects)
-        self._lay_fog()
         self.stand(up, lights)
+        self._lay_fog()
 
     def _take_theme(self) -> None:
         """Take the theme that the look names, if it names one."""
@@ -150,14 +157,31 @@ class Staging:
         self.scene.clear()
         self.box = BoxGrid(self.viewed, self.scene)
         self._grid: Node | None = None
+        self._surround()
         self.lighting = self._light()
-        if self.settings.shadow is not None:
-            switch_shadows(self.lighting.groups(), self.settings.shadow)
+        self._cast_shadows()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
         self._studio = self._make_studio()
+        self._edges = self._make_edges()
         self._await_theme()
         self.show_grid(self.settings.grid)
+
+    def _cast_shadows(self) -> None:
+        """Let lights cast the shadows that the user chose, or else the look."""
+        if self.settings.shadow is not None:
+            switch_shadows(self.lighting.groups(), self.settings.shadow)
+        elif self.viewed.themed and isinstance(self.lighting, Lighting):
+            self.lighting.cast_shadows(self.settings.look.shadow)
+
+    def _surround(self) -> None:
+        """Give the scene its environment, and materials that reflect it."""
+        look, scene, viewed = self.settings.look, self.scene, self.viewed
+        reflects = look.environment and not self._is_lit_scene
+        self.settings.surroundings.put(scene, UP_DIRECTIONS[self.up] if reflects else None)
+        if viewed.themed:
+            shows_numbers = viewed.bar is not None or viewed.coloring is not None
+            scene.finish_materials(finish_for(look, scene, shows_numbers))
 
     def _await_theme(self) -> None:
         """Let the next frame choose the theme, if the look leaves it open."""
@@ -176,7 +200,7 @@ class Staging:
         """Follow a scene whose nodes moved, hid or showed; what else there is stays."""
         self.box.fit(self.viewed)
         if self._studio is not None:
-            self._studio.fit(self.viewed.focus)
+            self._studio.fit(self.viewed.places)
         if self._grid is not None:
             self._grid.object = self._lines()
         self._await_theme()
@@ -194,7 +218,8 @@ class Staging:
             return OnlyLight(self.scene, light)
         lights = None if self._is_lit_scene else look.lights
         first = lights or (NO_LIGHTS if self._adds_nothing() else "headlight")
-        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity * look.light_intensity, first)
+        intensity *= look.light_intensity * light_around(look, self.scene)[1]
+        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity, first)
 
     def _adds_nothing(self) -> bool:
         """Return whether a scene without lights is lit by the renderer itself."""
@@ -208,8 +233,16 @@ class Staging:
         if not self.viewed.themed or (look.lights is None and not look.ground):
             return None
         lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
-        is_lit = lights and look.lights is not None
-        return Studio(self.scene, UP_DIRECTIONS[self.up], is_lit, self.viewed.focus)
+        ambient = light_around(look, self.scene)[0] if lights else None
+        return Studio(self.scene, UP_DIRECTIONS[self.up], ambient, self.viewed.places)
+
+    def _make_edges(self) -> FeatureLines | None:
+        """Return the feature edges of the model; None if the look draws none."""
+        wanted = self.settings.look.feature_edges
+        is_painted = self.settings.material is not None or self.viewed.coloring is not None
+        if not self.viewed.themed or not wanted or (wanted == "auto" and is_painted):
+            return None
+        return FeatureLines(self.scene, of_all=wanted is True)
 
     def _shows_theme(self) -> bool:
         """Return whether the background is the theme's."""
@@ -236,11 +269,18 @@ class Staging:
             Draws a small picture of the model on a transparent background.
         """
         self.choose_theme(view, draw_alone)
-        studio = self._studio
+        studio, edges = self._studio, self._edges
+        is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
+        is_plain = is_plain and not split
+        if edges is not None:
+            if is_plain and appearance.cull != "front":
+                edges.follow(view.eye(), self.viewed.bounds, only_closed=appearance.cull == "back")
+            else:
+                edges.show(False)
         if studio is not None and self._has_ground:
-            is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
-            if is_plain and not split and not self._transparent:
-                studio.lay_shadow(self.viewed.bounds, view.azimuth, appearance.cull, view.eye())
+            if is_plain and not self._transparent:
+                light = self.lighting.main_direction()
+                studio.lay_shadow(self.viewed.bounds, view, light, appearance.cull)
             else:
                 studio.show_shadow(False)
         self.box.follow(view.position(), self.settings.axes_grid and not split)
@@ -257,8 +297,13 @@ class Staging:
             return
         if self._studio is not None:
             self._studio.show_shadow(False)
+        if self._edges is not None:
+            self._edges.show(False)
         self.alone = None if self.settings.keeps_theme else draw_alone(view)
-        self.theme = self.theme if self.alone is None else theme_for(self.alone)
+        if self.alone is None:
+            self.theme = self.theme
+        else:
+            self.theme = theme_for(self.alone, has_faces(self.viewed.scene))
 
     @property
     def _has_ground(self) -> bool:
@@ -294,7 +339,8 @@ class Staging:
         """Switch the grid under the model on or off."""
         self.settings.grid = shown
         if shown and self._grid is None:
-            self._grid = self.scene.beside.add(self._lines(), name="grid")
+            self._grid = self.scene.beside.add(self._lines(), name="grid", cast_shadows=False)
+            self._grid.receive_shadows = False
         if self._grid is not None:
             self._grid.visible = shown
 

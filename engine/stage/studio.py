@@ -19,22 +19,20 @@ from numpy.typing import ArrayLike
 from ..base import linalg
 from ..choices import FrameCull
 from ..model.geometry.mesh import Mesh
-from ..model.materials.linear_colors import linear
 from ..model.materials.material import Material, textures_of
 from ..model.materials.textures import Texture
-from ..model.scene.ambient_lights import HemisphereLight
+from ..model.scene.ambient_lights import AmbientLight
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
-from .ground_shadow import REACH, SIDE, GroundShadow
+from .ground_shadow import REACH, SIDE, GroundShadow, slant_along, usual_slant
 from .overlays.theme import DARK, LIGHT, Theme
+from .views.camera_view import AnyView
 from .views.viewpoint import Sphere
 
-#: Ambient light from above and from below.
-_SKY, _GROUND = linear(0.30, 0.32, 0.36), linear(0.18, 0.17, 0.16)
 #: The required contrast between a model's outline and its background, as mean difference in 8-bit
-#: codes: for faces, which are shaded, and for points and lines, which are all outline.
-_CONTRAST, _THIN_CONTRAST = 5.0, 100.0
+#: codes: of faces, which are shaded, and of points and lines alone.
+_CONTRAST, _THIN_CONTRAST = 5.0, 60.0
 #: How much farther away the ground is drawn, as a fraction of its distance from the eye.
 BEHIND = 1 / 4
 #: Lines of sight that descend less steeply than this do not show the ground.
@@ -50,24 +48,27 @@ class Studio:
         The studio adds nodes beside it.
     up : (3,) sequence of float
         The world's up direction.
-    is_lit : bool
-        Whether ambient light replaces that of the scene: soft light from above and below, or its
-        environment.
+    ambient : AmbientLight or None
+        Replaces the ambient light of the scene, unless it has an environment; None leaves it.
     places : (N, 3) ndarray of float64, optional
         Points that bound the moving scene, in world space; by default it is static.
     """
 
     def __init__(
-        self, staged: StagedScene, up: ArrayLike, is_lit: bool, places: np.ndarray | None = None
+        self,
+        staged: StagedScene,
+        up: ArrayLike,
+        ambient: AmbientLight | None,
+        places: np.ndarray | None = None,
     ) -> None:
         self._staged = staged
         self._axes = home_axes(up)
-        if is_lit:
+        if ambient is not None:
             staged.ambient = (0.0, 0.0, 0.0)
-        if is_lit and staged.environment is None:
+        if ambient is not None and staged.environment is None:
             pose = np.eye(4)
             pose[:3, :3] = np.stack(tuple(self._axes), axis=1)
-            staged.beside.add(HemisphereLight(_SKY, _GROUND), pose=pose)
+            staged.beside.add(ambient, pose=pose)
         self._ground: Node | None = None
         self._square = _square()
         self._shadow = GroundShadow(staged, self._square, self._axes)
@@ -83,18 +84,22 @@ class Studio:
         """Whether the shadow is drawn."""
         return self._ground is not None and self._ground.visible
 
-    def lay_shadow(self, bounds: Sphere, azimuth: float, cull: FrameCull, eye: np.ndarray) -> None:
+    def lay_shadow(
+        self, bounds: Sphere, view: AnyView, light: np.ndarray | None, cull: FrameCull
+    ) -> None:
         """Draw the scene's current shadow on the ground.
 
         Parameters
         ----------
         bounds : Sphere
             The scene's bounds, which determine the size of the shadow.
-        azimuth, cull
+        view : Viewpoint or CameraView
+        light : (3,) ndarray of float64 or None
+            The direction in which the key light travels; None: from behind the viewer's shoulder.
+        cull : str
             As in `GroundShadow.alphas`.
-        eye : (4,) sequence of float
-            The viewer's position and 1, or the direction to the viewer and 0.
         """
+        eye = view.eye()
         self.show_shadow(False)
         lowest = min(self._usual, self._lowest())
         up, center = self._axes[1], np.array(bounds.center)
@@ -102,7 +107,8 @@ class Studio:
         towards = np.array(eye[:3]) - middle * eye[3]
         if not float(linalg.dot(towards, up)) > _LEVEL * float(linalg.length(towards)):
             return
-        alphas = self._shadow.alphas(lowest, bounds, azimuth, cull)
+        slant = usual_slant(view.azimuth) if light is None else slant_along(light, self._axes)
+        alphas = self._shadow.alphas(lowest, bounds, slant, cull)
         ground = self._darkened(alphas)
         farther = 1.0 + BEHIND * eye[3]
         pose = np.eye(4)
@@ -119,6 +125,7 @@ class Studio:
         """Return the ground with a shadow on it; the node is added on first use."""
         if self._ground is None:
             self._ground = self._staged.beside.add(self._square, name="shadow", cast_shadows=False)
+            self._ground.receive_shadows = False
         material = self._square.materials[0]
         known = textures_of(material).get("texture")
         if known is None or (known.pixels[..., 3] != alphas).any():
@@ -145,21 +152,24 @@ def _square() -> Mesh:
     )
 
 
-def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> Theme:
+def theme_for(
+    picture: np.ndarray, has_faces: bool = True, themes: Iterable[Theme] = (LIGHT, DARK)
+) -> Theme:
     """Return the first theme whose background contrasts enough with a model, or the best one.
 
     Parameters
     ----------
     picture : (H, W, 4) uint8
         The model on a transparent background.
+    has_faces : bool
+        Whether the model has faces, and not only points and lines.
     themes : iterable of Theme
     """
     shows = picture[..., 3] > 0
     around = np.pad(shows, 1, mode="edge")
     inside = around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
     outline = np.nonzero(shows & ~inside)
-    thin = len(outline[0]) / max(int(np.count_nonzero(shows)), 1)
-    needed = _CONTRAST + (_THIN_CONTRAST - _CONTRAST) * thin
+    needed = _CONTRAST if has_faces else _THIN_CONTRAST
     distances = [(_distance(picture, outline, theme), theme) for theme in themes]
     enough = [theme for distance, theme in distances if distance >= needed]
     return enough[0] if enough else max(distances, key=lambda entry: entry[0])[1]

@@ -20,7 +20,11 @@ from ..rendering.frame import Frame, Output
 from ..rendering.framing import lens_for
 from ..rendering.options import size_in_picture
 from ..rendering.renderer import Renderer
-from ..rendering.support_functions import support_of_scene
+from ..rendering.support_functions import (
+    SupportFunction,
+    support_of_points,
+    support_of_scene,
+)
 from .appearance import Appearance, count_points, point_size
 from .blank import BlankWatch, Reason, Sight
 from .lighting import Lighting, OnlyLight
@@ -37,7 +41,7 @@ from .overlays.debug_lines import draw_lines
 from .overlays.labels import draw_labels
 from .overlays.selection_outline import CLICK_OUTPUTS
 from .overlays.theme import Theme
-from .scene_bounds import turning_outline
+from .scene_bounds import turning_outline, turning_outline_of_points
 from .stage_settings import Settings
 from .staging import Staging
 from .viewed_scene import ViewedScene
@@ -167,7 +171,10 @@ class ViewRenderer:
 
     def _measure(self, viewed: ViewedScene) -> None:
         """Measure a scene in its current pose."""
-        self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
+        if viewed.swept is not None:
+            self._support: SupportFunction | None = support_of_points(viewed.swept)
+        else:
+            self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
         self._points = count_points(viewed.scene)
 
     def renew(self) -> None:
@@ -183,9 +190,11 @@ class ViewRenderer:
 
     def _find_outline(self) -> np.ndarray:
         viewed = self.viewed
-        outline = viewed.focus
-        if outline is None:
-            outline = turning_outline(viewed.scene, UP_DIRECTIONS[self.staging.up])
+        outline, up = viewed.focus, UP_DIRECTIONS[self.staging.up]
+        if viewed.swept is not None:
+            outline = turning_outline_of_points(viewed.swept, up)
+        elif outline is None:
+            outline = turning_outline(viewed.scene, up)
         self._outline = outline
         return outline
 
@@ -221,7 +230,7 @@ class ViewRenderer:
         return self.staging.theme
 
     def _picture_alone(self, view: AnyView) -> np.ndarray:
-        """Return a small picture of the model on a transparent background."""
+        """Return a small picture of the model on a transparent background, without shadows."""
         scene = self.staging.scene
         background, scene.background = scene.background, None
         width, height = self.size
@@ -229,7 +238,9 @@ class ViewRenderer:
         size = max(1, round(width / scale)), max(1, round(height / scale))
         try:
             look, camera = self._appearance(), (self._camera(view), view.pose())
-            return self._small_renderer(size).render(scene, camera, **look).color
+            look["ambient_occlusion"] = False
+            with self.lighting.without_shadows():
+                return self._small_renderer(size).render(scene, camera, **look).color
         finally:
             scene.background = background
 
@@ -305,7 +316,7 @@ class ViewRenderer:
 
     def choose_theme(self, view: Viewpoint) -> None:
         """Choose the theme that the model contrasts with as seen from a view, if none is chosen."""
-        self.lighting.follow(view.pose())
+        self._light(view.pose())
         self.staging.choose_theme(view, self._picture_alone)
 
     def draw(
@@ -354,7 +365,7 @@ class ViewRenderer:
         if self.viewed.update is not None:
             self.viewed.update(time)
         pose = view.pose()
-        self.lighting.follow(pose)
+        self._light(pose)
         if self.viewed.follow is not None:
             self.viewed.follow(pose[:3, 3])
         self.staging.follow(view, self.appearance, self.split, self._picture_alone)
@@ -376,6 +387,11 @@ class ViewRenderer:
             paint(frame, mode, self.bounds)
         self._blanks.look(frame, self.staging, lambda: self._sight(camera, pose))
         return frame
+
+    def _light(self, pose: np.ndarray) -> None:
+        """Fit the lights to a view and to the picture."""
+        self.lighting.follow(pose)
+        self.lighting.soften(self.size)
 
     def _sight(self, camera: Camera, pose: np.ndarray) -> Sight:
         """Return what a frame looks at."""

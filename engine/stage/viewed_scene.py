@@ -57,6 +57,9 @@ class ViewedScene:
         The player of the scene's animations.
     focus : (N, 3) ndarray of float64 or None
         Points to frame in the first view, in world space; by default the whole scene.
+    swept : (N, 3) ndarray of float64 or None
+        Points that bound the scene at all times of its clips, in world space; for scenes whose
+        clips play. The first view shows them all.
     appearance : dict
         Fields of `Appearance` that the scene sets unless the user overrides them.
     follow : callable or None
@@ -108,6 +111,7 @@ class ViewedScene:
     plays: bool = False
     player: AnimationPlayer | None = None
     focus: np.ndarray | None = None
+    swept: np.ndarray | None = None
     appearance: dict[str, Any] = field(default_factory=dict)
     follow: Callable[[np.ndarray], None] | None = None
     detail: Callable[..., object] | None = None
@@ -130,6 +134,11 @@ class ViewedScene:
     def bounds(self) -> Sphere:
         """The bounding sphere of the scene in its first pose, in world space."""
         return bounding_sphere(self.scene)
+
+    @property
+    def places(self) -> np.ndarray | None:
+        """Points that bound the moving scene, (N, 3) in world space; None if it is to be seen."""
+        return self.focus if self.swept is None else self.swept
 
     def forget_bounds(self) -> None:
         """Measure the bounds anew when they are used next."""

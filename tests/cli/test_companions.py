@@ -11,7 +11,7 @@ from engine3d.apps.cli import main
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"
 OPTIONS = ("--size", "48x32", "--unlit")
-WHITE, BLUE, RED = [255, 255, 255], [10, 30, 200], [200, 30, 10]
+GREY, BLUE, RED = [172, 169, 164], [10, 30, 200], [200, 30, 10]
 
 
 @pytest.fixture(autouse=True)
@@ -41,7 +41,7 @@ def test_pictures_that_bear_the_models_name_are_all_the_same(suffix, capsys):
     assert capsys.readouterr().err == ""
     assert np.array_equal(pictures[0], pictures[1])
     assert np.array_equal(pictures[0], pictures[2])
-    assert middle() == WHITE
+    assert middle() == GREY
     assert capsys.readouterr().err == ""
 
 

@@ -7,7 +7,7 @@ import engine3d as e3d
 from engine3d.apps.cli import main
 from engine3d.model.scene.ambient_lights import HemisphereLight
 from engine3d.model.scene.lights import DirectionalLight, PointLight
-from engine3d.stage.shadow_switch import switch_shadows
+from engine3d.stage.lighting import switch_shadows
 
 SUN = ["--light-direction=-0.5,-1,-0.6"]
 

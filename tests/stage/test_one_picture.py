@@ -255,8 +255,9 @@ def test_looks_are_values():
     look = e3d.Look.studio(ground=False)
     assert look == e3d.Look.studio().replace(ground=False) != e3d.Look.studio()
     assert {look, look.replace()} == {look} and look.lights == "studio"
+    thing = e3d.Mesh.concatenate([e3d.plane((3.0, 3.0)), e3d.box()])
     pictures = [
-        e3d.render(e3d.torus(), size=SIZE, look=one).color
+        e3d.render(thing, size=SIZE, look=one).color
         for one in (
             e3d.Look.studio(),
             look,
@@ -266,14 +267,18 @@ def test_looks_are_values():
             look.replace(light_intensity=0.5),
             look.replace(tone_mapping="none"),
             look.replace(ambient_occlusion=False),
+            look.replace(shadow="none"),
+            look.replace(environment=False),
+            look.replace(feature_edges=False),
         )
     ]
     assert len({picture.tobytes() for picture in pictures}) == len(pictures)
     with pytest.raises(AttributeError):
         look.ground = True
-    with pytest.raises(TypeError, match="shadow"):
-        look.replace(shadow="map")
-    for wrong in ({"lights": "moon"}, {"light_intensity": -1}, {"background": "x"}):
+    with pytest.raises(TypeError, match="shadows"):
+        look.replace(shadows="map")
+    wrongs = [{"lights": "moon"}, {"light_intensity": -1}, {"background": "x"}]
+    for wrong in (*wrongs, {"shadow": "soft"}, {"feature_edges": "all"}):
         with pytest.raises(e3d.InvalidArgumentError):
             e3d.Look.studio(**wrong)
     with pytest.raises(e3d.InvalidArgumentError, match='"studio", "plain"'):

@@ -10,7 +10,7 @@ from engine3d.model.motion.clips import AnimationClip, Channel
 from engine3d.model.scene.orbiting import home_axes
 from engine3d.model.scene.staged_scene import StagedScene
 from engine3d.model.scene.surroundings import SCENE_VALUES
-from engine3d.stage.ground_shadow import SIDE, GroundShadow
+from engine3d.stage.ground_shadow import SIDE, GroundShadow, slant_along, usual_slant
 from engine3d.stage.overlays.theme import DARK, LIGHT
 from engine3d.stage.played_clips import play_clips
 from engine3d.stage.stage_settings import Settings
@@ -211,7 +211,7 @@ def shadow_alphas(mesh, azimuth=0.0, cull="back"):
     low = float(scene.bounds[0][1])
     bounds = ViewedScene(scene, "model").bounds
     shadow = GroundShadow(StagedScene(scene), e3d.plane(), home_axes(up))
-    return shadow.alphas(low, bounds, azimuth, cull).astype(int)
+    return shadow.alphas(low, bounds, usual_slant(azimuth), cull).astype(int)
 
 
 def mushroom():
@@ -294,3 +294,86 @@ def test_the_shadow_follows_each_picture_of_an_animation():
 def test_faces_that_are_left_out_cast_no_shadow(cull, casts):
     downward = e3d.Mesh([(0, 1, 0), (1, 1, 0), (0, 1, 1)], [(0, 1, 2)])
     assert bool(shadow_alphas(downward, cull=cull).any()) is casts
+
+
+# ---- the key light ----
+
+
+def test_both_shadows_of_the_key_light_lie_in_its_direction():
+    scene, renderer = staged()
+    with renderer:
+        view = renderer.view()
+        for azimuth, elevation in ((0.0, 0.3), (2.0, 0.1), (4.0, 1.2)):
+            view.azimuth, view.elevation = azimuth, elevation
+            renderer.draw(view)
+            direction = renderer.lighting.main_direction()
+            axes = home_axes((0.0, 1.0, 0.0))
+            across, along = slant_along(direction, axes)
+            assert direction[1] < 0 and across * direction[0] > 0 and along * direction[2] > 0
+            assert math.hypot(across, along) <= 0.9 + 1e-9
+            assert across * direction[2] == pytest.approx(along * direction[0])
+
+
+def test_light_that_travels_level_casts_the_longest_shadow():
+    axes = home_axes((0.0, 1.0, 0.0))
+    for direction in ((1.0, 0.0, 0.0), (1.0, 0.3, 0.0), (1.0, -1e-3, 0.0)):
+        assert slant_along(np.array(direction), axes) == pytest.approx((0.9, 0.0))
+    assert slant_along(np.array((0.0, -1.0, 0.0)), axes) == (0.0, 0.0)
+
+
+def wall_on_a_floor():
+    """A wall on the side of the key light."""
+    pose = np.eye(4)
+    pose[:3, 3] = 0.9, 0.5, 0.6
+    parts = e3d.plane((3.0, 3.0)), e3d.box((0.2, 1.0, 1.0))
+    return e3d.Mesh.concatenate(parts, poses=[np.eye(4), pose])
+
+
+def test_models_cast_soft_shadows_on_themselves():
+    pictures = {
+        shadow: e3d.render(
+            wall_on_a_floor(), size=(240, 180), look=e3d.Look.studio(shadow=shadow)
+        ).color
+        for shadow in ("map", "exact", "none")
+    }
+    pictures = {shadow: picture.astype(int) for shadow, picture in pictures.items()}
+    darker = (pictures["none"] - pictures["map"])[..., 1]
+    assert darker.min() >= -2 and (darker > 25).sum() > 200
+    half = (darker > 6) & (darker < darker.max() - 6)  # the soft edge
+    hard = (pictures["none"] - pictures["exact"])[..., 1]
+    half_hard = (hard > 6) & (hard < hard.max() - 6)
+    assert half.sum() > 1.5 * half_hard.sum()
+
+
+@pytest.mark.parametrize("shape", ["box", "uv_sphere", "icosphere", "cylinder", "torus"])
+def test_convex_models_shadow_nothing_that_is_lit(shape):
+    mesh = getattr(e3d, shape)()
+    pictures = [
+        e3d.render(mesh, size=(240, 180), look=e3d.Look.studio(shadow=shadow)).color.astype(int)
+        for shadow in ("none", "map")
+    ]
+    darker = (pictures[0] - pictures[1])[..., 1]
+    if shape == "torus":
+        assert darker.max() > 10  # its hole is in its shadow
+    else:
+        assert darker.max() <= 8  # where light only grazes, at most
+
+
+def test_maps_are_as_fine_as_the_picture():
+    for size, side in (((64, 48), 512), ((1280, 720), 1024), ((4000, 3000), 2048)):
+        scene, renderer = staged()
+        with renderer:
+            renderer.size = size
+            renderer._light(np.eye(4))
+            key = renderer.lighting.groups()[0][0]
+            assert (key.shadow, key.shadow_map_size, key.shadow_taps) == ("map", side, 5)
+            fill = renderer.lighting.groups()[0][1]
+            assert fill.shadow == "none"
+
+
+def test_the_ground_makes_shadow_maps_no_coarser():
+    scene, renderer = staged()
+    with renderer:
+        renderer.draw(renderer.view())
+        assert renderer.staging.scene.data.shadow_bounds().tolist() == scene.bounds.tolist()
+        assert (renderer.staging.scene.bounds != scene.bounds).any()

@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
 from ...model.scene.staged_scene import StagedScene
 from ...model.scene.usage import uses_in
 from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
-from ...stage.appearance import count_points, point_size
+from ...stage.appearance import count_points, has_faces, point_size
 from ...stage.blank import Sight
 from ...stage.coloring import show_numbers
-from ...stage.lighting import NO_LIGHTS, Lighting
+from ...stage.finish import finish_for
+from ...stage.lighting import NO_LIGHTS, Lighting, light_around
 from ...stage.look import Look
 from ...stage.overlays.numbers import take_marks
 from ...stage.overlays.theme import LIGHT, Theme, theme_named
@@ -90,7 +90,7 @@ class PanelRenderer:
         self._drawing = dict(drawing)
         self._cull = viewed.appearance.get("cull", "auto")
         self._points = count_points(self.scene)
-        self.has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
+        self.has_faces = has_faces(self.scene)
         self._renderer: Renderer | None = None
         self._settings = settings_for(look, material=material)
         self.staged = StagedScene(self.scene)
@@ -102,11 +102,14 @@ class PanelRenderer:
         """Light drawings, whatever lights the scene has."""
         look, first = self._look, self._look.lights or NO_LIGHTS
         self.staged.read_textures(self._settings.filtering)
-        self._settings.surroundings.put(self.staged, look.environment)
+        self._settings.surroundings.put(self.staged, self.up if look.environment else None)
+        shows_numbers = self._viewed.bar is not None or self._viewed.coloring is not None
+        self.staged.finish_materials(finish_for(look, self.staged, shows_numbers))
         self.staged.fog = None
-        self._lighting = Lighting(self.staged, self.up, look.light_intensity, first)
+        ambient, around = light_around(look, self.staged)
+        self._lighting = Lighting(self.staged, self.up, look.light_intensity * around, first)
         self._lighting.choose(first)
-        Studio(self.staged, self.up, look.lights is not None)
+        Studio(self.staged, self.up, ambient)
 
     def __enter__(self) -> PanelRenderer:
         return self
@@ -121,7 +124,7 @@ class PanelRenderer:
         self._lighting.follow(pose)
         with Renderer(_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
-        self.paper = theme_named(self._look.background) or theme_for(color)
+        self.paper = theme_named(self._look.background) or theme_for(color, self.has_faces)
 
     def draw(
         self,

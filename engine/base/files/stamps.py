@@ -9,7 +9,6 @@ when it was checked is read again after that step is surely over.
 
 from __future__ import annotations
 
-import hashlib
 import os
 import time
 from typing import NamedTuple
@@ -80,6 +79,8 @@ class FileState:
 
 
 def _digest(path: str | os.PathLike[str]) -> str | None:
+    import hashlib  # here, because it takes milliseconds
+
     try:
         return hash_of_file(path, hashlib.blake2b(digest_size=20))
     except OSError:

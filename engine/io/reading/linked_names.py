@@ -10,7 +10,6 @@ import os
 import re
 import unicodedata
 from collections.abc import Iterator
-from urllib.parse import unquote
 
 # Encodings of names that are not UTF-8, besides Latin-1, which is the fallback: of Japanese,
 # Chinese, Korean, Western, Russian and Central European Windows, of Macs, and of archives unpacked
@@ -35,7 +34,7 @@ def spellings(name: str) -> Iterator[str]:
     name = name.strip(" \t\r\n\v\f").strip('"')
     plain = _plain(name)
     yield plain
-    if "%" in name and (decoded := _plain(unquote(name))) != plain:
+    if "%" in name and (decoded := _plain(_unquoted(name))) != plain:
         yield decoded
     if not name.isascii():
         for text in _in_other_encodings(name):
@@ -60,11 +59,18 @@ def match_key(name: str) -> str:
     return folded if folded.isascii() else unicodedata.normalize("NFC", folded)
 
 
+def _unquoted(name: str) -> str:
+    """Return a name without percent signs that stand for other characters."""
+    from urllib.parse import unquote  # here, because it takes milliseconds
+
+    return unquote(name)
+
+
 def _plain(name: str) -> str:
     """Return a name without a file URL's prefix and suffix, with slashes."""
     url = _FILE_URL.match(name)
     if url is not None:
-        name = unquote(name[url.end() :])
+        name = _unquoted(name[url.end() :])
         if _DRIVE.match(name[1:]):
             name = name[1:]
     return name.replace("\\", "/")

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ...model.geometry.mesh import Mesh
 from ...model.materials.colors import linear_color
-from ...model.materials.material import Material, says_something, textures_of
+from ...model.materials.material import Material, states_nothing, textures_of
 from ...model.materials.textures import Texture
 
 _NAMES = {
@@ -107,4 +107,4 @@ def _some(names: list[str]) -> str:
 
 
 def _shows(material: Material) -> bool:
-    return says_something(material) or material.two_sided
+    return not states_nothing(material) or material.two_sided

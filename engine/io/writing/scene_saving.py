@@ -27,7 +27,7 @@ from ...model.geometry.creases import CREASE_ANGLE, SMOOTH
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.movers import VERTEX_AXES
 from ...model.geometry.origins import FileOrigin, PrimitiveOrigin, has_own_materials, origin_of
-from ...model.materials.material import TEXTURE_SLOTS, Material
+from ...model.materials.material import TEXTURE_SLOTS, Material, says_something, states_nothing
 from ...model.materials.textures import PlacedTexture, Texture, image_file_of
 from ...model.scene.animation import motions_of
 from ...model.scene.fog import ExponentialFog, Fog
@@ -299,6 +299,8 @@ class _Writing:
                     entry[name] = value
             elif (held := written(name, value)) != written(name, default):
                 entry[name] = held
+            elif name == "color" and not states_nothing(material) and not says_something(material):
+                entry[name] = held  # white, but stated
         return entry
 
     def _slot(self, value: Texture | PlacedTexture) -> int | dict[str, Any]:

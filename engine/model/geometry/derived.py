@@ -14,6 +14,7 @@ import numpy as np
 
 from ..._native.loaders import frozen
 from ..._native.rasterizer import bound_points
+from . import _feature_edges as _features
 from . import normals as _normals
 from . import topology as _topology
 
@@ -54,6 +55,7 @@ def _bounds(positions: np.ndarray) -> np.ndarray:
     return np.array(bound_points(positions), np.float64)
 
 
+_FEATURED = ("positions", "faces", "edge_visible", "_given_normals")
 _DERIVED: dict[
     str, tuple[Callable[..., np.ndarray], tuple[str, ...]]
 ] = {  # the function that computes each, and the arrays it takes
@@ -62,4 +64,6 @@ _DERIVED: dict[
     "polygons": (_topology.polygon_ids, ("faces", "edge_visible", "position_ids")),
     "edges": (_topology.visible_edges, ("faces", "edge_visible", "position_ids")),
     "bounds": (_bounds, ("positions",)),
+    "feature_edges": (_features.feature_edges, _FEATURED),
+    "faceted_edges": (_features.faceted_edges, _FEATURED),
 }

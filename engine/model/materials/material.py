@@ -14,6 +14,7 @@ value it varies. Kernels and reference implement the rest.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -39,6 +40,7 @@ from .parameters import (
     SURFACE_COLOR,
     TEXT,
     Parameter,
+    StatedColor,
     TextureSlot,
     made_of_parameters,
     parameters_of,
@@ -81,7 +83,8 @@ class Material(ShownInNotebooks, Versioned):
     """
 
     _is_implied = False  # see `imply`
-    color: Parameter[ColorLike, SurfaceColor] = Parameter(
+    _states_color = False  # whether the colour was ever assigned
+    color: Parameter[ColorLike, SurfaceColor] = StatedColor(
         SURFACE_COLOR,
         default=(1, 1, 1),
         gltf="pbrMetallicRoughness/baseColorFactor",
@@ -312,6 +315,8 @@ class Material(ShownInNotebooks, Versioned):
                 name: PARAMETERS[name].kind.check(value, name) for name, value in values.items()
             }
             vars(self).update({**_DEFAULTS, "extras": {}, **given})
+            if "color" in given:
+                self._states_color = True
             renew(self)
 
     @property
@@ -334,6 +339,8 @@ class Material(ShownInNotebooks, Versioned):
         return f"Material(name={self.name!r}, color={self.color}{texture})"
 
 
+#: Returns the material that is drawn for a material, which may be tinted by other colours.
+Finish: TypeAlias = Callable[[Material, bool], Material]
 PARAMETERS = parameters_of(Material)
 TEXTURE_SLOTS = tuple(name for name, row in PARAMETERS.items() if isinstance(row, TextureSlot))
 _DEFAULTS = {name: row.kind.check(row.default, name) for name, row in PARAMETERS.items()}
@@ -380,6 +387,18 @@ def is_implied(material: Material) -> bool:
     return material._is_implied
 
 
+def states_nothing(material: Material) -> bool:
+    """Return whether nobody has said how a material looks, so that looks may choose.
+
+    White that was given is stated, unlike the white of a new material.
+    """
+    if is_implied(material):
+        return not textures_of(material)
+    if material._states_color or textures_of(material):
+        return False
+    return all(a == b for name, a, b in _words_beside(material) if name != "extras")
+
+
 def says_something(material: Material) -> bool:
     """Return whether a material differs from a default one in more than its name.
 
@@ -387,6 +406,11 @@ def says_something(material: Material) -> bool:
     the file.
     """
     return bool(textures_of(material)) or _words(material) != _DEFAULT_WORDS
+
+
+def _words_beside(material: Material) -> Iterator[tuple[str, Any, Any]]:
+    """Yield what a material and a default one say, by name."""
+    return zip(_SAID, _words(material), _DEFAULT_WORDS, strict=True)
 
 
 def _words(material: Material) -> list[Any]:

@@ -27,7 +27,7 @@ from ...base.validation import (
     optional_fraction,
     text,
 )
-from ...choices import AlphaMode
+from ...choices import AlphaMode, ColorLike, SurfaceColor
 from ...errors import InvalidArgumentError
 from .colors import check_color, check_surface_color
 from .textures import PlacedTexture, Texture
@@ -193,13 +193,21 @@ class TextureSlot(Parameter[SlotTexture, SlotTexture]):
         self.is_color, self.is_normals = is_color, is_normals
 
 
+class StatedColor(Parameter[ColorLike, SurfaceColor]):
+    """The base colour: a material remembers that it was assigned."""
+
+    def __set__(self, owner: object, value: ColorLike) -> None:
+        super().__set__(owner, value)
+        vars(owner)["_states_color"] = True
+
+
 def parameters_of(cls: type) -> dict[str, Parameter[Any, Any]]:
     """Return the rows of a class by name, in order."""
     return {name: row for name, row in vars(cls).items() if isinstance(row, Parameter)}
 
 
 @dataclass_transform(
-    kw_only_default=True, eq_default=False, field_specifiers=(Parameter, TextureSlot)
+    kw_only_default=True, eq_default=False, field_specifiers=(Parameter, StatedColor, TextureSlot)
 )
 def made_of_parameters(cls: Class) -> Class:
     """Build a class's constructor signature and docstring from its rows.

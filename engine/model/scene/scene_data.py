@@ -32,11 +32,11 @@ from ._posing import (
 from .cameras import Camera
 from .instances import InstancedMesh
 from .lights import LIGHTS
-from .node_arrays import NodeArrays
+from .node_arrays import CASTS_NONE, RECEIVES_NONE, NodeArrays
 from .nodes import Node
 
 if TYPE_CHECKING:
-    from ..materials.material import Material
+    from ..materials.material import Finish, Material
     from ..materials.textures import Reading
     from ..motion.skins import Skin
     from .nodes import SceneObject
@@ -72,10 +72,15 @@ class SceneData:
         Materials drawn without their textures.
     reading : callable or None
         Returns with which anisotropy and bias a texture is read; None is its own.
+    finish : callable or None
+        Returns the material that is drawn for one of a `Mesh`, called with that material and
+        whether it is tinted: by colours of vertices or instances; points and lines alone count as
+        tinted. None draws it as it is. It must keep textures, flat shading and the alpha mode.
     """
 
     untextured: frozenset[Material] = frozenset()
     reading: Reading | None = None
+    finish: Finish | None = None
 
     def __init__(self) -> None:
         self.arrays = NodeArrays()
@@ -166,6 +171,11 @@ class SceneData:
         """Return the box around all visible meshes, (2, 3) in world space; zeros if none."""
         self.update()
         return box_around(self.arrays)
+
+    def shadow_bounds(self) -> NDArray[np.float64]:
+        """Return the box, as `bounds`, of all that casts or receives shadows."""
+        self.update()
+        return box_of_shadows(self.arrays)
 
     def add(self, scene: Scene, obj: SceneObject | None, name: str, parent: Node | None) -> Node:
         """Add a node to the scene, at its parent's pose."""
@@ -304,6 +314,17 @@ def box_around(arrays: Any) -> NDArray[np.float64]:
     """Return the box around the visible objects of given rows, as of the last update."""
     box = np.empty(OBJECT_BOX)
     around = union(arrays.columns["bounds"][: arrays.count], box)
+    return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
+
+
+def box_of_shadows(arrays: Any) -> NDArray[np.float64]:
+    """Return `box_around` what casts or receives shadows."""
+    columns, count = arrays.columns, arrays.count
+    takes_part = columns["unshadowed"][:count] != CASTS_NONE | RECEIVES_NONE
+    if takes_part.all():
+        return box_around(arrays)
+    box = np.empty(OBJECT_BOX)
+    around = union(np.ascontiguousarray(columns["bounds"][:count][takes_part]), box)
     return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
 
 

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._native.scene_graph import BOX, SHOWN
-from ..materials.material import Material
+from ..materials.material import Finish, Material
 from ..materials.textures import Reading
 from ._objects import NO_BOX
 from .node_arrays import NodeArrays
 from .nodes import Node
-from .scene_data import SceneData, box_around
+from .scene_data import SceneData, box_around, box_of_shadows
 from .shown import as_shown
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class StagedData:
         The data of the scene, and of the nodes beside it.
     keeps_lights, shows_textures : bool
         Whether the scene's own lights shine, and its materials show their textures.
-    reading : callable or None
+    reading, finish : callable or None
         As in `SceneData`.
     hidden : frozenset of Node
     part_of : callable or None
@@ -55,6 +55,7 @@ class StagedData:
         self.own, self.added = own, added
         self.keeps_lights = self.shows_textures = True
         self.reading: Reading | None = None
+        self.finish: Finish | None = None
         self.hidden: frozenset[Node] = frozenset()
         self.part_of: Callable[[Any], Any] | None = None
         self.arrays = _JoinedRows(self)
@@ -76,6 +77,10 @@ class StagedData:
     def bounds(self) -> NDArray[np.float64]:
         self.update()
         return box_around(self.arrays)
+
+    def shadow_bounds(self) -> NDArray[np.float64]:
+        self.update()
+        return box_of_shadows(self.arrays)
 
     def update(self, threads: int = 1) -> None:
         """Update both trees, then join them."""
@@ -244,8 +249,9 @@ class _JoinedObjects:
             self._room *= 2
         if staged.part_of is not None:
             self._make_parts(staged.part_of, staged.posing)
-        looks = self._added, self._room, self.renewals, staged.shows_textures, staged.reading
-        version = self._own.version, self._added.version, *looks
+        looks = staged.shows_textures, staged.reading, staged.finish
+        made = self._added, self._room, self.renewals
+        version = self._own.version, self._added.version, *made, *looks
         if version != self.version:
             free = [None] * (self._room - len(self._own.objects))
             parts = [self._made[number][1] for number in self.parts]

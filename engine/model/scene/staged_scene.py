@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ..materials.material import Finish
 from ..materials.textures import Reading
 from .nodes import Node
 from .scene import Scene
@@ -73,6 +74,16 @@ class StagedScene(Surroundings):
             Called with a `Texture`; returns its anisotropy and its bias in this picture.
         """
         self.data.reading = reading
+
+    def finish_materials(self, finish: Finish | None) -> None:
+        """Draw materials otherwise than they say.
+
+        Parameters
+        ----------
+        finish : callable or None
+            As in `SceneData`.
+        """
+        self.data.finish = finish
 
     def hide(self, nodes: Iterable[Node], part_of: Callable[[Any], Any] | None = None) -> None:
         """Hide nodes of the scene, but not their children; all other nodes show.

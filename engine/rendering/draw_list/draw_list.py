@@ -18,7 +18,7 @@ from ..._native.rasterizer import NativeDrawList
 from ...base.dirty_tracking import Watch
 from ...choices import ColorSpace, Normals
 from ...model.geometry.mesh import Mesh
-from ...model.materials.material import Material
+from ...model.materials.material import Finish, Material
 from ...model.materials.textures import Reading
 from ...model.motion.posed_mesh import PosedMesh
 from ...model.scene.instances import InstancedMesh, flat_poses, shown_ids
@@ -71,8 +71,9 @@ class DrawList:
         self._data: Callable[[], AnyData | None] = lambda: None
         self._objects_version: Any = -1  # version of the objects, from either kind of scene
         self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
-        # Of the scene: materials without textures, and how textures are read.
-        self._textures: tuple[frozenset[Material], Reading | None] = frozenset(), None
+        # Of the scene: materials without textures, and how textures are read and materials drawn.
+        self._dress: tuple[frozenset[Material], Reading | None, Finish | None]
+        self._dress = frozenset(), None, None
         # The numbers of closed objects.
         self._closed: set[int] = set()
         self._with_holes: set[int] = set()  # the closed objects that have holes
@@ -188,8 +189,8 @@ class DrawList:
         numbers = self._numbers_that_changed(data) if same else None
         self._data = lambda: None  # if anything below raises, the list is not current
         self._listing = listing
-        self._textures = data.untextured, data.reading
-        self._materials.untextured, self._materials.reading = self._textures
+        self._dress = data.untextured, data.reading, data.finish
+        self._dress_materials()
         if numbers is None:
             self._rebuild(data)
         else:
@@ -234,12 +235,16 @@ class DrawList:
         self.lights.forget()
         self._watch, self._changed = Watch(), []
         self._materials = MaterialList(self.native, self._color_space, self._watch)
-        self._materials.untextured, self._materials.reading = self._textures
+        self._dress_materials()
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False
         self._make_textures(data)
         for number, obj in enumerate(data.objects.objects):
             self._set_object(number, obj)
+
+    def _dress_materials(self) -> None:
+        materials = self._materials
+        materials.untextured, materials.reading, materials.finish = self._dress
 
     def _make_textures(self, data: AnyData) -> None:
         meshes = (_mesh_of(obj) for obj in data.objects.objects if obj is not None)
@@ -265,7 +270,9 @@ class DrawList:
             self._closed.add(number)
             if len(holes.ends):
                 self._with_holes.add(number)
-        base = self._materials.base_of(mesh.materials, both)
+        tinted = mesh.colors is not None or getattr(obj, "colors", None) is not None
+        tinted = tinted or not len(mesh.faces)
+        base = self._materials.base_of(mesh.materials, both, tinted)
         needs = _needs_of(mesh, self._listing.needs, self._listing.normals)
         if isinstance(obj, PosedMesh):
             native = obj.handle(needs.face_normals, needs.edges, self._threads)

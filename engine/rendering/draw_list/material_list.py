@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..._native.rasterizer import ALPHA_MODES, PHYSICAL_NUMBERS, NativeDrawList, NativeTexture
 from ...base import linalg
@@ -17,7 +17,7 @@ from ...base.dirty_tracking import Watch
 from ...base.side_by_side import side_by_side
 from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
-from ...model.materials.material import PARAMETERS, Material, placed_textures_of
+from ...model.materials.material import PARAMETERS, Finish, Material, placed_textures_of
 from ...model.materials.parameters import TextureSlot
 from ...model.materials.textures import PlacedTexture, Reading, Texture
 from .native_handles import Content, is_new, native_texture
@@ -29,6 +29,14 @@ _LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting 
 _SAME = [name for name in PHYSICAL_NUMBERS if name in PARAMETERS]
 _SAME_NUMBERS = [name for name in _SAME if PARAMETERS[name].kind.width == 1]
 _SAME_COLORS = [name for name in _SAME if PARAMETERS[name].kind.width == 3]
+
+
+class _Use(NamedTuple):
+    """How a mesh uses a material: its number there, and as in `MaterialList.base_of`."""
+
+    number: int
+    both: bool
+    tinted: bool
 
 
 class MaterialList:
@@ -47,7 +55,7 @@ class MaterialList:
         Materials set without their textures.
     mirrors : set of Material
         The listed materials that mirror.
-    reading : callable or None
+    reading, finish : callable or None
         As in `SceneData`.
     """
 
@@ -56,17 +64,17 @@ class MaterialList:
         self.untextured: frozenset[Material] = frozenset()
         self.mirrors: set[Material] = set()
         self.reading: Reading | None = None
-        # For each material its places, their owners, and whether both sides are forced to show.
-        self._places: dict[Material, list[tuple[int, int, bool]]] = {}
+        self.finish: Finish | None = None
+        # For each material its places, and its uses there.
+        self._places: dict[Material, list[tuple[int, _Use]]] = {}
         # For each material, the normals it needs and whether it is opaque.
         self._traits: dict[Material, tuple[bool, bool]] = {}
         self._textured: dict[Material, set[Texture]] = {}
         self._users: dict[Texture, set[Material]] = {}
-        # The start of each list of materials, by their IDs and whether both sides are forced to
-        # show.
-        self._bases: dict[tuple[tuple[int, ...], bool], int] = {}
+        # The start of each list of materials, by their IDs and how they are used.
+        self._bases: dict[tuple[tuple[int, ...], bool, bool], int] = {}
 
-    def base_of(self, materials: list[Material], both: bool) -> int:
+    def base_of(self, materials: list[Material], both: bool, tinted: bool) -> int:
         """Return the number of the first of a mesh's materials; list them if necessary.
 
         Parameters
@@ -74,13 +82,16 @@ class MaterialList:
         materials : list of Material
         both : bool
             Whether both sides show regardless of the materials.
+        tinted : bool
+            As for the `finish` of `SceneData`.
         """
-        key = tuple(map(id, materials)), both
+        key = tuple(map(id, materials)), both, tinted
         if key not in self._bases:
             base = self._native.material_count
             for number, material in enumerate(materials):
-                self._places.setdefault(material, []).append((base + number, number, both))
-                self._set(base + number, material, number, both)
+                use = _Use(number, both, tinted)
+                self._places.setdefault(material, []).append((base + number, use))
+                self._set(base + number, material, use)
             self._bases[key] = base
         return self._bases[key]
 
@@ -113,22 +124,23 @@ class MaterialList:
         changed = list(changed)
         materials = {thing for thing in changed if isinstance(thing, Material)}
         for material in materials.union(*(self._users.get(thing, ()) for thing in changed)):
-            for index, number, both in self._places[material]:
-                self._set(index, material, number, both)
+            for index, use in self._places[material]:
+                self._set(index, material, use)
 
-    def _set(self, index: int, material: Material, number: int, both: bool) -> None:
+    def _set(self, index: int, material: Material, use: _Use) -> None:
         self._watch.add(material)
         self._traits[material] = _traits_of(material)
         (self.mirrors.add if material.mirror > 0 else self.mirrors.discard)(material)
         placed = {} if material in self.untextured else placed_textures_of(material)
-        self._note_textures(material, {use.texture for use in placed.values()})
+        self._note_textures(material, {one.texture for one in placed.values()})
         space = self._color_space
-        sides = {"id": number, "two_sided": both or material.two_sided}
-        physical = _physical(material, space) if material.is_physical else None
-        uses = {slot: self._use(slot, use) for slot, use in placed.items()}
-        self._native.set_material(index, _numbers(material, space) | sides, physical, uses)
+        shown = material if self.finish is None else self.finish(material, use.tinted)
+        sides = {"id": use.number, "two_sided": use.both or material.two_sided}
+        physical = _physical(shown, space) if shown.is_physical else None
+        textures = {slot: self._texture(slot, one) for slot, one in placed.items()}
+        self._native.set_material(index, _numbers(shown, space) | sides, physical, textures)
 
-    def _use(
+    def _texture(
         self, slot: str, placed: PlacedTexture
     ) -> tuple[NativeTexture, int, list[float] | None]:
         """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""

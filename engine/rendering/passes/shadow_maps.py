@@ -121,7 +121,7 @@ class ShadowMaps(Pass):
         self, number: int, light: DirectLight, pose: Where, picture: Picture
     ) -> ShadowViews | None:
         """Return the views of a light's maps; reused if no input changed."""
-        bounds, layout = picture.scene.bounds, LIGHT_TRAITS[light.kind].maps
+        bounds, layout = picture.scene.data.shadow_bounds(), LIGHT_TRAITS[light.kind].maps
         sight: Sight | None = None
         seen_by: tuple[object, ...] = ()
         if isinstance(light, DirectionalLight):
@@ -136,7 +136,7 @@ class ShadowMaps(Pass):
 
     def _sight_of(self, cascades: int, picture: Picture) -> Sight:
         """Return the slices of the camera's view in which something is."""
-        view, bounds = picture.view, picture.scene.bounds
+        view, bounds = picture.view, picture.scene.data.shadow_bounds()
         cut_from = view, bounds.tobytes()
         known = self._cut.get(cascades)
         if known is None or known[0] != cut_from:

@@ -6,7 +6,6 @@ encoded bytes; others become PNG. Non-physical materials are converted to simila
 
 from __future__ import annotations
 
-import math
 import os
 from typing import Any
 
@@ -14,6 +13,7 @@ from ...._native.images import encode_png
 from ....model.materials.colors import linear_color
 from ....model.materials.linear_colors import LinearColor
 from ....model.materials.material import Material, is_implied
+from ....model.materials.phong import roughness_of
 from ....model.materials.textures import PlacedTexture, Texture, image_file_of
 from ...writing.losses import lost_of_reading
 from .gltf_materials import PARTS, Map, Numbers
@@ -238,6 +238,5 @@ def _physical(material: Material) -> tuple[float, float]:
     if material.is_physical:
         metallic = 1.0 if material.metallic is None else material.metallic
         return metallic, 1.0 if material.roughness is None else material.roughness
-    if not any(_linear(material.specular)):
-        return 0.0, 1.0
-    return 0.0, math.sqrt(math.sqrt(2.0 / (material.shininess + 2.0)))
+    roughness = roughness_of(material)
+    return 0.0, 1.0 if roughness is None else roughness

@@ -197,7 +197,7 @@ def _material(
         }
     material = Material(name=name)
     given = {
-        "color": color if color != _WHITE else None,
+        "color": color if color != _WHITE or "Kd" in values else None,
         "texture": texture,
         "specular": _shown(_specular(values)) if "Ks" in values else None,
         "shininess": max(values["Ns"], 0.0) if "Ns" in values else None,

@@ -13,7 +13,7 @@ from typing import Any
 from ...._native.images import encode_png
 from ....base.files.atomic_write import AtomicFiles
 from ....model.materials.colors import display_numbers
-from ....model.materials.material import Material, says_something, textures_of
+from ....model.materials.material import Material, states_nothing, textures_of
 from ...writing.rows import float_words
 from ...writing.side_files import LIBRARY_MARK, SideFiles
 from ...writing.written_names import encoded, line_text, unique
@@ -36,7 +36,7 @@ _APPLIED = ("name", "s", "o", "clamp")
 
 def is_plain(materials: list[Material]) -> bool:
     """Return whether reading without a library would give the same material."""
-    return len(materials) == 1 and not materials[0].name and not says_something(materials[0])
+    return len(materials) == 1 and not materials[0].name and states_nothing(materials[0])
 
 
 def material_names(materials: list[Material]) -> list[str]:
@@ -78,7 +78,9 @@ class Library:
 
     def _statements(self, material: Material, name: str) -> list[str]:
         specular = display_numbers(material.specular)
-        lines = [f"newmtl {name}", f"Kd {_numbers(display_numbers(material.rgb))}"]
+        lines = [f"newmtl {name}"]
+        if not states_nothing(material):
+            lines.append(f"Kd {_numbers(display_numbers(material.rgb))}")
         lines += [f"Ks {_numbers(specular)}", f"Ns {_numbers([material.shininess])}"]
         if any(emissive := display_numbers(material.emissive)):
             lines.append(f"Ke {_numbers(emissive)}")

@@ -136,6 +136,10 @@ typedef struct e3d_frame {
     e3d_ambient_light ambient_light;      /* beside ambient */
     /* (height, width) or NULL: the share of ambient light that reaches the opaque surfaces in a pixel (R129) */
     const float *ambient_visibility;
+    int32_t opaque_only;         /* what is blended over the visible surface is left out (R161) */
+    /* NULL, or what glass bends and blurs: all levels that e3d_find_behind found, and (height, width), the output depth, of the same
+     * frame with opaque_only */
+    const float *behind, *behind_depth;
 } e3d_frame;
 
 /* These set a member by its name: one that options decide, or one that a scene's surroundings decide. They return 0 if no member

@@ -362,13 +362,15 @@ cdef class NativeRenderer:
         const double[:, ::1] frozen_clip_from_world=None,
         const float[:, ::1] rays=None,
         const float[:, ::1] ambient_visibility=None,
+        const float[::1] behind=None,
+        const float[:, ::1] behind_depth=None,
     ) -> NativeStats:
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
         `number` tells the camera from others: the core remembers what each saw in its last frame.
         If a signal handler raises meanwhile, its exception is raised here and the targets are
         partly written. Where an environment is the background, `rays` has three rows: e3d_backdrop's.
-        `ambient_visibility`: (height, width), of each pixel.
+        `ambient_visibility`: (height, width), of each pixel. `behind`: what `find_behind` found, with the depths of the same picture.
         """
         cdef e3d_frame frame
         cdef e3d_targets outputs
@@ -392,6 +394,11 @@ cdef class NativeRenderer:
             require(ambient_visibility.shape[0] == height and ambient_visibility.shape[1] == width,
                     "ambient_visibility must be (height, width)")
             frame.ambient_visibility = &ambient_visibility[0, 0]
+        if behind is not None:
+            require(<size_t>behind.shape[0] >= e3d_behind_floats(width, height), "behind is too small")
+            require(behind_depth.shape[0] == height and behind_depth.shape[1] == width,
+                    "behind_depth must be (height, width)")
+            frame.behind, frame.behind_depth = &behind[0], &behind_depth[0, 0]
         frame.ambient_light = draw_list.ambient_light
         frame.depth_near = depth_near
         frame.depth_far = depth_far
@@ -551,6 +558,7 @@ def rasterize(
     check(status)
 
 
+include "behind.pxi"
 include "bloom.pxi"
 include "occlusion.pxi"
 include "shadow_ranges.pxi"

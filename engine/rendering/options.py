@@ -126,6 +126,7 @@ class OptionKeywords(TypedDict, total=False):
     alpha_to_coverage: bool
     ambient_occlusion: bool
     ambient_occlusion_radius: float | None
+    refraction: bool
 
 
 class RenderKeywords(OptionKeywords, total=False):
@@ -208,6 +209,10 @@ class RenderOptions:
     ambient_occlusion_radius : float, optional
         World units: occluders farther away are ignored. By default a fraction of the diagonal of
         the scene's box.
+    refraction : bool
+        In mode "lit", with ``hidden_surfaces="zbuffer"``: materials with ``transmission`` bend what
+        is behind them by ``thickness`` and ``ior``, and blur it by ``roughness``. Where such glass
+        shows, opaque surfaces are drawn once more. Otherwise light passes straight and sharp.
 
     Raises
     ------
@@ -236,6 +241,7 @@ class RenderOptions:
     alpha_to_coverage: bool = _option(False, flag, "alpha_to_coverage")
     ambient_occlusion: bool = _option(False, flag)
     ambient_occlusion_radius: float | None = _option(None, optional_positive)
+    refraction: bool = _option(True, flag)
 
     def __post_init__(self) -> None:
         for one in fields(self):  # bypasses __setattr__, which refuses

@@ -21,6 +21,7 @@ from .bloom import Bloom
 from .exact_shadows import ExactShadows
 from .output_passes import SURFACE, ColorPass, SurfacePass
 from .protocol import Pass, Tools
+from .refraction import Refraction
 from .shadow_maps import ShadowMaps
 
 _MAX_KEPT = 16  # for programs that alternate between kinds of pictures
@@ -31,6 +32,7 @@ PASSES: tuple[type[Pass], ...] = (
     ExactShadows,
     SurfacePass,
     AmbientOcclusion,
+    Refraction,
     ColorPass,
     Bloom,
 )
@@ -123,3 +125,5 @@ class Passes:
     def forget(self) -> None:
         """Free unused arrays."""
         self._pool.forget()
+        for one in self._all:
+            one.forget()

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "e3d_backends.h"
+#include "e3d_behind.h"
 #include "e3d_bloom.h"
 #include "e3d_options.h"
 #include "e3d_casters.h"

@@ -141,6 +141,10 @@ typedef struct e3d_frame {
     const float *ambient_visibility;
     const e3d_mirror *mirrors; /* what faces of materials with a mirror show */
     int32_t mirror_count;      /* at most E3D_MAX_MIRRORS */
+    int32_t opaque_only;         /* what is blended over the visible surface is left out (R161) */
+    /* NULL, or what glass bends and blurs: all levels that e3d_find_behind found, and (height, width), the output depth, of the same
+     * frame with opaque_only */
+    const float *behind, *behind_depth;
 } e3d_frame;
 
 /* These set a member by its name: one that options decide, or one that a scene's surroundings decide. They return 0 if no member

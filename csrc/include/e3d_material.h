@@ -52,6 +52,7 @@ typedef struct e3d_physical {
     float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
     float sheen_color[3], sheen_roughness;
     float transmission, thickness;
+    float ior, dispersion;     /* the index of refraction, 1 or more, and how much that differs between colours (R164) */
     float absorption[3];       /* the base-2 logarithm of the share of light that is left after a world unit of thickness */
     float anisotropy, anisotropy_turn[2]; /* strength, 0 .. 1; cosine and sine of the angle from the tangent */
     float iridescence, iridescence_ior;   /* the share, 0 .. 1; the film's index of refraction, 1 or more */

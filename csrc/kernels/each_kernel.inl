@@ -137,6 +137,11 @@ E3D_KERNEL(void, environment, (const e3d_environment_light *light, const float *
 E3D_KERNEL(void, irradiance, (const e3d_environment_light *light, const float *const normal[3], int count, float *const color[3]))
 /* Finds the share of light that surfaces reflect if it is 1 all around. */
 E3D_KERNEL(void, albedo, (e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out))
+/* Finds how far surfaces shift what is behind them, and how much they blur it (R164, R165). scale: the world units of a thickness
+ * of 1. */
+E3D_KERNEL(void, bend, (const e3d_bending *bending, const float *scale, int count, e3d_bend_batch *out))
+/* Looks up what is behind glass: finds the levels of a batch by its blurs, and the light there (R163). */
+E3D_KERNEL(void, behind, (const e3d_behind_view *view, e3d_behind_batch *batch))
 /* Adds the light that a block of texels gathers from cells. */
 E3D_KERNEL(void, lobe, (const e3d_cell_group *group, e3d_lobe_block *block))
 

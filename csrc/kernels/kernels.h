@@ -11,6 +11,7 @@
 #include "e3d_canvas.h"
 #include "kernels/types/alpha.h"
 #include "kernels/types/ambient_occlusion.h"
+#include "kernels/types/bending.h"
 #include "kernels/types/casters.h"
 #include "kernels/types/fog.h"
 #include "kernels/types/fragments.h"

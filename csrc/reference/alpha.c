@@ -3,7 +3,7 @@
  * Out: whether masked ones show there; the fragments of blended ones, sorted by sample, and samples with their colours
  * blended over them.
  * Rules: R81 (coverage), R82 (visibility), R83 (order), R84 (composition), R123 (of radiance), R105, R108 and R190 (multisampling).
- * The alpha of a surface is R80, in surface.c. */
+ * The alpha of a surface is R80, in surface.c; R166, what blending begins with behind glass, in refraction.c. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -195,10 +195,26 @@ static int find_layer(const ref_scene *scene, const ref_piece *piece, const ref_
     return 1;
 }
 
+/* R166 */
+static void add_bends(const ref_scene *scene, const ref_band *band, const ref_place *at, ref_bend *sum)
+{
+    size_t sample = ref_sample_at(band, at);
+    ref_no_bend(sum);
+    for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1] && ref_frame_bends(scene->frame); i++) {
+        const ref_place first = first_with(band, at, band->fragments[i].piece);
+        layer layer;
+        if (find_layer(scene, &scene->pieces.items[band->fragments[i].piece], &first, &layer))
+            ref_add_bend(scene->frame, &layer.surface, &first, sum);
+    }
+}
+
 /* R84 */
 void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *at, float color[3], float *alpha)
 {
     size_t sample = ref_sample_at(band, at);
+    ref_bend sum;
+    add_bends(scene, band, at, &sum);
+    ref_begin_behind(scene->frame, &sum, at, color, alpha);
     for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++) {
         const ref_piece *piece = &scene->pieces.items[band->fragments[i].piece];
         const ref_place first = first_with(band, at, band->fragments[i].piece);
@@ -224,6 +240,9 @@ void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *a
 void ref_blend_radiance(const ref_scene *scene, const ref_band *band, const ref_place *at, float radiance[3])
 {
     size_t sample = ref_sample_at(band, at);
+    ref_bend sum;
+    add_bends(scene, band, at, &sum);
+    ref_begin_radiance(scene->frame, &sum, at, radiance);
     for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++) {
         layer layer;
         float light[3];

@@ -50,7 +50,7 @@ static e3d_status keep_fragment(const ref_scene *scene, const ref_piece *piece, 
                                 ref_band *band, size_t sample)
 {
     if (ref_is_blended(scene->frame, piece))
-        return ref_add_fragment(band, sample, z, number);
+        return scene->frame->opaque_only ? E3D_OK : ref_add_fragment(band, sample, z, number); /* R161 */
     if (piece->primitive.kind == REF_FACE && band->overdraw[sample] < 255)
         band->overdraw[sample]++;
     if (scene->frame->hidden != E3D_HIDDEN_ZBUFFER || z < band->depth[sample]) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "e3d.h"
+#include "e3d_behind.h"
 #include "e3d_bloom.h"
 
 /* Draws a frame into the targets. `stats` may be NULL. Nothing is written unless E3D_OK is returned.
@@ -13,3 +14,5 @@
 e3d_status e3d_reference_render(const e3d_frame *frame, const e3d_targets *targets, e3d_stats *stats);
 /* Adds the glow of a picture to it. */
 e3d_status e3d_reference_bloom(const e3d_bloom *bloom);
+/* Finds the levels of the picture behind glass. */
+void e3d_reference_behind(const e3d_behind *picture, float *levels);

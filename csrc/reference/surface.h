@@ -22,6 +22,7 @@ typedef struct ref_physical {
     float coat, coat_roughness, coat_normal[3];
     float sheen[3], sheen_roughness;
     float transmission, depth; /* depth: the distance in world units over which light is absorbed (R134) */
+    float scale;               /* the world units of a thickness of 1, 0 on back faces (R134) */
     ref_stretch stretch;       /* used if the material has anisotropy */
     float iridescence, film_thickness;
 } ref_physical;
@@ -142,6 +143,21 @@ float ref_transmitting_alpha(const e3d_material *material, float alpha);
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 /* R135: blends a fragment that transmits over a sample. */
 void ref_lay_transmitting(const float color[3], float alpha, const float transmittance[3], float under[3], float *under_alpha);
+
+/* How far fragments shift what is behind, in 1/256 pixel: [channel], across and down; and how much they blur it (R166). */
+typedef struct ref_bend {
+    uint32_t shift[3][2], blur;
+    float depth; /* the least metric depth of one that does either */
+} ref_bend;
+
+/* refraction.c */
+int ref_frame_bends(const e3d_frame *frame);
+void ref_no_bend(ref_bend *out);
+/* Adds what a fragment bends and blurs. */
+void ref_add_bend(const e3d_frame *frame, const ref_surface *surface, const ref_place *at, ref_bend *sum);
+/* Replaces what blending begins with, if anything is bent or blurred. */
+void ref_begin_behind(const e3d_frame *frame, const ref_bend *sum, const ref_place *at, float color[3], float *alpha);
+void ref_begin_radiance(const e3d_frame *frame, const ref_bend *sum, const ref_place *at, float radiance[3]);
 
 /* tone.c */
 void ref_map_tone(e3d_tone_mapping mapping, float color[3]);

@@ -191,15 +191,14 @@ static void find_stretch(const e3d_material *m, const ref_surface *s, ref_physic
     ref_find_stretch(&m->physical, counts ? texel : NULL, unit, s, &out->stretch);
 }
 
-/* R134: how deep light goes, in world units. */
-static float depth_below(const ref_surface *surface, float thickness)
+/* R134: the world units of a thickness of 1. */
+static float scale_below(const ref_surface *surface)
 {
     const float (*w)[4] = surface->instance->world_from_object;
     float square[3];
     for (int r = 0; r < 3; r++)
         square[r] = (w[r][0] * w[r][0] + w[r][1] * w[r][1]) + w[r][2] * w[r][2];
-    float scale = surface->piece->front ? sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD) : 0.0f;
-    return thickness * scale;
+    return surface->piece->front ? sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD) : 0.0f;
 }
 
 static void find_physical(const ref_scene *scene, const e3d_material *m, ref_surface *s)
@@ -225,7 +224,8 @@ static void find_physical(const ref_scene *scene, const e3d_material *m, ref_sur
     find_iridescence(m, s, out);
     if (physical->anisotropy != 0.0f)
         find_stretch(m, s, out);
-    out->depth = depth_below(s, multiplied(&m->thickness_texture, s, 1, physical->thickness));
+    out->scale = scale_below(s);
+    out->depth = multiplied(&m->thickness_texture, s, 1, physical->thickness) * out->scale;
 }
 
 void ref_find_textures(const ref_scene *scene, ref_surface *surface)

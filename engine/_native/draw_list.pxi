@@ -281,6 +281,15 @@ cdef class NativeDrawList:
             raise OutOfMemoryError("no memory for the list of what to draw")
         return 0
 
+    def refracts(self) -> bool:
+        """Whether something that was placed last bends or blurs what is behind it, in mode lit."""
+        cdef e3d_frame frame
+        memset(&frame, 0, sizeof(e3d_frame))
+        frame.mode = E3D_MODE_LIT
+        frame.materials, frame.material_count = self.materials, self.material_count
+        frame.draws, frame.draw_count = self.placed.draws, self.placed.count
+        return e3d_refracts(&frame)
+
     cdef int find_unlit_materials(self) except -1:
         """Materials as mode unlit draws them: what is black shows its emission, if it has one."""
         cdef e3d_material *material

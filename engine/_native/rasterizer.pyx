@@ -379,6 +379,8 @@ cdef class NativeRenderer:
         const float[:, ::1] rays=None,
         const float[:, ::1] ambient_visibility=None,
         list mirrors=None,
+        const float[::1] behind=None,
+        const float[:, ::1] behind_depth=None,
     ) -> NativeStats:
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
@@ -386,7 +388,8 @@ cdef class NativeRenderer:
         If a signal handler raises meanwhile, its exception is raised here and the targets are
         partly written. Where an environment is the background, `rays` has three rows: e3d_backdrop's.
         `ambient_visibility`: (height, width), of each pixel. `mirrors`: of each its plane (four numbers), slack, left,
-        top, scale, and radiance (rows, columns, 3), as e3d_mirror has them.
+        top, scale, and radiance (rows, columns, 3), as e3d_mirror has them. `behind`: what `find_behind` found, with the
+        depths of the same picture.
         """
         cdef e3d_frame frame
         cdef e3d_mirror reflecting[E3D_MAX_MIRRORS]
@@ -413,6 +416,11 @@ cdef class NativeRenderer:
             frame.ambient_visibility = &ambient_visibility[0, 0]
         if mirrors is not None:
             frame.mirrors, frame.mirror_count = reflecting, set_mirrors(reflecting, mirrors)
+        if behind is not None:
+            require(<size_t>behind.shape[0] >= e3d_behind_floats(width, height), "behind is too small")
+            require(behind_depth.shape[0] == height and behind_depth.shape[1] == width,
+                    "behind_depth must be (height, width)")
+            frame.behind, frame.behind_depth = &behind[0], &behind_depth[0, 0]
         frame.ambient_light = draw_list.ambient_light
         frame.depth_near = depth_near
         frame.depth_far = depth_far
@@ -572,6 +580,7 @@ def rasterize(
     check(status)
 
 
+include "behind.pxi"
 include "bloom.pxi"
 include "occlusion.pxi"
 include "shadow_ranges.pxi"

@@ -21,8 +21,8 @@ from ..errors import InvalidArgumentError
 from . import options as limits
 from ._output_pool import shapes_of
 
-#: Bytes allowed per pixel in addition. Bloom and ambient occlusion together need fewer.
-BYTES_A_PIXEL = 48
+#: Bytes allowed per pixel in addition. Bloom, ambient occlusion and refraction together need fewer.
+BYTES_A_PIXEL = 96
 
 _FLOAT = 4
 _KEPT_SAMPLE = 8  # a depth and an ID: csrc/frame/tile/kept.c
@@ -76,6 +76,17 @@ class FrameMemory:
     def begin(self, size: tuple[int, int], uses: list[Use]) -> None:
         """Begin a frame with this memory and no shadow maps so far."""
         self._size, self._of_options, self._of_maps = size, uses, []
+
+    def add(self, use: Use) -> None:
+        """Add memory that a pass found to need.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The frame would exceed the limit.
+        """
+        self._of_maps.append(use)
+        self._check(self._of_options + self._of_maps)
 
     def add_maps(self, lights: Iterable[tuple[str, int, int]]) -> None:
         """Add shadow maps: for each light its kind, the number of maps, and texels per side.

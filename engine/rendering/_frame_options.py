@@ -65,6 +65,8 @@ _WITHOUT_COLOR = {
 }
 # The backdrop of light that is not the scene's environment.
 _AS_IT_IS = {"backdrop.light.intensity": 1.0, "backdrop.level": 0.0}
+# Settings that differ if blended surfaces and edges are left out.
+_OPAQUE = {"wireframe": _native.WIREFRAMES[None], "opaque_only": True}
 # Modes whose colours go through the sRGB encoder; the others give display values.
 _ENCODED_MODES = ("lit", "unlit")
 
@@ -90,6 +92,8 @@ class FrameOptions:
     native : NativeOptions
     has_backdrop : bool
         Whether an environment is the background.
+    is_transparent : bool
+        Whether nothing is.
     """
 
     def __init__(
@@ -120,7 +124,7 @@ class FrameOptions:
         line_width = options.pixels_of(options.line_width, height)
         point_size = options.pixels_of(options.point_size, height)
         self._numbers = core_numbers(options) | {"line_width": line_width, "point_size": point_size}
-        self.native = _native.NativeOptions(
+        self._lit = (
             {
                 **self._numbers,
                 **_background(scene, color_space, convert),
@@ -137,7 +141,9 @@ class FrameOptions:
             backdrop,
             _fog(scene, color_space, options),
         )
+        self.native = _native.NativeOptions(*self._lit)
         self.has_backdrop = backdrop is not None
+        self.is_transparent = scene.background is None
         # Pixels: twice the reach of the widest line or point from its middle, to allow for
         # rounding.
         self._mark_size = 2.0 * (max(line_width, point_size) + 2.0)
@@ -146,6 +152,12 @@ class FrameOptions:
     def surfaces(self) -> _native.NativeOptions:
         """The same options for drawing without colour."""
         return _native.NativeOptions(self._numbers | _WITHOUT_COLOR)
+
+    @cached_property
+    def opaque(self) -> _native.NativeOptions:
+        """The same options for drawing what isn't blended."""
+        numbers, *rest = self._lit
+        return _native.NativeOptions(numbers | _OPAQUE, *rest)
 
     def headlight(self, towards_viewer: Sequence[float]) -> Headlight | None:
         """Return the light of a scene without lights: with the ambient light it makes white.

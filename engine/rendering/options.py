@@ -135,6 +135,7 @@ class OptionKeywords(TypedDict, total=False):
     ambient_occlusion: bool
     ambient_occlusion_radius: float | None
     mirror_depth: int
+    refraction: bool
 
 
 class RenderKeywords(OptionKeywords, total=False):
@@ -227,6 +228,10 @@ class RenderOptions:
         In mode "lit": how many mirrors (`Material.mirror`) light may meet on its way, 0 to 8. Each
         flat mirror in view takes a view of the scene of its own, and so does each mirror in it.
         Beyond, mirrors look as without.
+    refraction : bool
+        In mode "lit", with ``hidden_surfaces="zbuffer"``: materials with ``transmission`` bend what
+        is behind them by ``thickness`` and ``ior``, and blur it by ``roughness``. Where such glass
+        shows, opaque surfaces are drawn once more. Otherwise light passes straight and sharp.
 
     Raises
     ------
@@ -257,6 +262,7 @@ class RenderOptions:
     ambient_occlusion: bool = _option(False, flag)
     ambient_occlusion_radius: float | None = _option(None, optional_positive)
     mirror_depth: int = _option(2, _depth)
+    refraction: bool = _option(True, flag)
 
     def __post_init__(self) -> None:
         for one in fields(self):  # bypasses __setattr__, which refuses

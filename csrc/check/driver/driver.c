@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "check/driver/scenes/behind_scene.h"
 #include "check/driver/scenes/bloom_scene.h"
 #include "check/driver/scenes/canvas_scene.h"
 #include "check/driver/compare.h"
@@ -52,6 +53,7 @@ static const struct {
     {"pyrender", compare_pyrender},
     {"outputs", compare_outputs},
     {"bloom", compare_bloom},
+    {"behind", compare_behind},
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 

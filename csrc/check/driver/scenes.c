@@ -507,6 +507,10 @@ static void add_rare_parts(e3d_material *material, random_stream *r)
     int transmits = random_once_in(r, 2), absorbs = random_once_in(r, 2), usual = !random_once_in(r, 6);
     p->transmission = transmits ? random_float(r, 0.2f, 1.0f) : 0.0f;
     p->thickness = absorbs ? random_float(r, 0.0f, 3.0f) : 0.0f;
+    p->ior = random_once_in(r, 4) ? 1.0f : random_float(r, 1.0f, 2.5f);
+    p->dispersion = random_once_in(r, 3) ? random_float(r, 0.0f, 4.0f) : 0.0f;
+    if (random_once_in(r, 3))
+        p->roughness = 0.0f;
     for (int k = 0; k < 3; k++)
         p->absorption[k] = random_float(r, -3.0f, 0.0f);
     p->anisotropy = random_once_in(r, 3) ? random_float(r, 0.0f, 1.0f) : 0.0f;
@@ -520,6 +524,28 @@ static void add_rare_parts(e3d_material *material, random_stream *r)
         p->transmission = hostile_float(r);
     if (!usual)
         p->thickness = hostile_float(r);
+}
+
+/* One number begins all texels, as in random_bytes. */
+static float *random_texels(scene *s, random_stream *r, size_t count, float low, float high)
+{
+    float *values = scene_array(s, count, sizeof *values);
+    random_stream own = {.state = random_bits(r)};
+    for (size_t i = 0; i < count; i++)
+        values[i] = random_float(&own, low, high);
+    return values;
+}
+
+/* A picture behind glass, in which some things are in front of it; its shares are those of surfaces that are tone mapped. */
+static void add_behind(scene *s, random_stream *r)
+{
+    e3d_frame *frame = &s->frame;
+    size_t floats = e3d_behind_floats(frame->width, frame->height);
+    float *texels = random_texels(s, r, floats, 0.0f, random_once_in(r, 4) ? 60000.0f : 1.5f);
+    for (size_t i = 3; i < floats; i += 4)
+        texels[i] = texels[i] < 1.0f ? texels[i] : 1.0f;
+    frame->behind = texels;
+    frame->behind_depth = random_texels(s, r, (size_t)frame->width * (size_t)frame->height, random_once_in(r, 2) ? -1.0f : 3.0f, 6.0f);
 }
 
 void scene_add_alpha(scene *s, random_stream *r)
@@ -536,6 +562,9 @@ void scene_add_alpha(scene *s, random_stream *r)
             add_rare_parts(material, r);
     }
     s->frame.transparent_outputs = random_below(r, 2);
+    s->frame.opaque_only = random_once_in(r, 6);
+    if (random_once_in(r, 2))
+        add_behind(s, r);
 }
 
 static e3d_environment_light environment_light(const scene *s, random_stream *r)

@@ -15,7 +15,7 @@ enum {
     SCENE_MAX_LIGHTS = 24,
     SCENE_MAX_MATERIALS = 4,
     SCENE_MAX_MIRRORS = 3,
-    SCENE_MAX_ARRAYS = 85 + SCENE_MAX_MIRRORS + SCENE_MAX_LIGHTS
+    SCENE_MAX_ARRAYS = 87 + SCENE_MAX_MIRRORS + SCENE_MAX_LIGHTS
 };
 
 typedef struct scene {
@@ -35,7 +35,7 @@ typedef struct scene {
 
 /* Sides are limited to `most_side` pixels; 0: by nothing. The scene must be destroyed also where this gives an error. */
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side);
-/* Masks some of its materials, and blends some: at least one. */
+/* Masks some of its materials, and blends some: at least one. Glass may bend what is behind it. */
 void scene_add_alpha(scene *s, random_stream *r);
 /* Light from all around, of a random picture; it may be the background as well. */
 e3d_status scene_add_environment(scene *s, random_stream *r);

@@ -138,6 +138,25 @@ void e3d_draws_free(e3d_draws *draws)
     e3d_array_free(&draws->order_memory);
 }
 
+/* ---- refraction ---- */
+
+static int refracts(const e3d_frame *frame, int32_t material)
+{
+    return e3d_transmits(frame, &frame->materials[material]) && e3d_bends(&frame->materials[material]);
+}
+
+int e3d_refracts(const e3d_frame *frame)
+{
+    int32_t first = 0;
+    while (first < frame->material_count && !refracts(frame, first))
+        first++;
+    for (int32_t d = 0; d < frame->draw_count && first < frame->material_count; d++)
+        for (int32_t m = 0; m <= frame->draws[d].mesh->material_most; m++)
+            if (refracts(frame, frame->draws[d].material_base + m))
+                return 1;
+    return 0;
+}
+
 /* ---- whose a number is ---- */
 
 /* The function that tells where element k of a table starts. */

@@ -107,7 +107,8 @@ static asked_items asked_for(const e3d_frame *f, const e3d_targets *targets)
            asked_if(f->frozen_clip_from_world != NULL, E3D_ASKED_OTHER_FRUSTUM) |
            asked_if(e3d_shows_environment(f) || f->gradient.shows, E3D_ASKED_BACKDROP) |
            asked_if(e3d_has_light_or_color(f) && f->fog.kind != E3D_FOG_NONE, E3D_ASKED_FOG) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE) |
-           asked_if(f->msaa_samples, E3D_ASKED_MULTISAMPLING);
+           asked_if(f->msaa_samples, E3D_ASKED_MULTISAMPLING) | asked_if(f->opaque_only, E3D_ASKED_OPAQUE_ONLY) |
+           asked_if(f->behind != NULL, E3D_ASKED_BEHIND);
 }
 
 /* ---- what is done about it ---- */
@@ -157,10 +158,12 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_FACES, .asked = ASKED(NDC_DEPTH)},
     {E3D_PLAN_SORTS, .unless_asked = ASKED(ZBUFFER)},
     {E3D_PLAN_ALPHA_BINS, .asked = ASKED(ALPHA)},
-    {E3D_PLAN_BLENDS, .asked = ASKED(ALPHA) | ASKED(LIT), .planned = PLAN(COLORS)},
-    {E3D_PLAN_BLENDS, .asked = ASKED(ALPHA) | ASKED(UNLIT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_BLENDS, .asked = ASKED(ALPHA) | ASKED(LIT), .planned = PLAN(COLORS), .unless_asked = ASKED(OPAQUE_ONLY)},
+    {E3D_PLAN_BLENDS, .asked = ASKED(ALPHA) | ASKED(UNLIT), .planned = PLAN(COLORS), .unless_asked = ASKED(OPAQUE_ONLY)},
+    {E3D_PLAN_BENDS, .asked = ASKED(BEHIND) | ASKED(LIT) | ASKED(ZBUFFER), .planned = PLAN(BLENDS), .unless_asked = ASKED(WIRE_ONLY)},
     {E3D_PLAN_SOLID, .asked = ASKED(ALPHA), .unless_asked = ASKED(LIT) | ASKED(UNLIT)},
-    {E3D_PLAN_SOLID, .asked = ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), .unless_planned = PLAN(COLORS)},
+    {E3D_PLAN_SOLID, .asked = ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), .unless_planned = PLAN(COLORS),
+     .unless_asked = ASKED(OPAQUE_ONLY)},
     {E3D_PLAN_FRONT, .asked = ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS) | PLAN(OUTPUTS)},
     {E3D_PLAN_FRONT, .asked = ASKED(NDC_DEPTH) | ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS)},
     /* alpha tests and blending come last */

@@ -46,7 +46,9 @@
     X(SHADOWS, "lights that have shadows") \
     X(EXACT_SHADOWS, "lights that have exact shadows") \
     X(MULTISAMPLING, "several samples a pixel, of which each surface is shaded once") \
-    X(MIRRORS, "mirrors, and materials that show them")
+    X(MIRRORS, "mirrors, and materials that show them") \
+    X(OPAQUE_ONLY, "that what is blended is left out") \
+    X(BEHIND, "that glass bends or blurs a picture of what is behind it")
 
 /* What is done for it: X(name, description). */
 #define E3D_PLANNED(X) \
@@ -67,6 +69,7 @@
     X(SORTS, "records are sorted before they are binned, and the last one shows") \
     X(ALPHA_BINS, "records with alpha go to bins of their own") \
     X(BLENDS, "blended layers are laid over what is behind them") \
+    X(BENDS, "layers of glass are added up before they are blended, since they bend what is behind all of them") \
     X(SOLID, "blended faces show wherever their alpha isn't 0, as masked ones do") \
     X(FRONT, "outputs are those of the nearest blended layer, where there is one") \
     X(AT_ONCE, "each record is shaded at once, where it is the nearest so far") \

@@ -4,6 +4,7 @@
 #include "data/sample_patterns.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/bending.h"
 #include "kernels/types/casters.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
@@ -18,6 +19,7 @@ typedef struct e3d_prepared {
     const e3d_draws *draws; /* geometry finishes some instances, here and in the view */
     const e3d_view *view;
     const e3d_caster_index *casters; /* the casters, if lights have exact shadows */
+    e3d_behind_view behind;            /* the picture behind glass, if there is one */
     const e3d_sample_pattern *pattern; /* the sample pattern; NULL: no multisampling */
     const e3d_view *frustum; /* the view whose frustum decides what is drawn: `view` itself, or that of a frozen camera */
 } e3d_prepared;

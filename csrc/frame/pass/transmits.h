@@ -1,4 +1,4 @@
-/* Which materials light passes through (R133). */
+/* Which materials light passes through (R133), and which of these bend or blur it (R160). */
 #pragma once
 
 #include "e3d.h"
@@ -13,4 +13,11 @@ static inline int e3d_transmits(const e3d_frame *frame, const e3d_material *mate
 static inline int e3d_is_seen_through(const e3d_frame *frame, const e3d_material *material)
 {
     return material->alpha_mode != E3D_ALPHA_OPAQUE || e3d_transmits(frame, material);
+}
+
+/* Whether the faces of a material that transmits shift or blur what is behind them, in a frame that bends. */
+static inline int e3d_bends(const e3d_material *material)
+{
+    const e3d_physical *p = &material->physical;
+    return p->ior != 1.0f && (p->thickness != 0.0f || p->roughness != 0.0f);
 }

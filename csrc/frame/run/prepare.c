@@ -2,8 +2,10 @@
 #include <string.h>
 
 #include "base/grow.h"
+#include "data/behind_levels.h"
 #include "data/sample_patterns.h"
 #include "data/tone_tables.h"
+#include "kernels/types/bending.h"
 #include "frame/cast/casters.h"
 #include "frame/run/prepare.h"
 #include "frame/geometry/bin.h"
@@ -82,6 +84,15 @@ static int prepare_views(e3d_renderer *renderer, const e3d_frame *frame, const e
     return e3d_view_prepare(view, frustum, frame->clip_from_world, draws, frame, threads);
 }
 
+/* Finds the levels of the picture behind glass, if there is one. */
+static void prepare_behind(const e3d_frame *frame, e3d_behind_view *out)
+{
+    out->texels = frame->behind;
+    out->depth = frame->behind_depth;
+    if (frame->behind)
+        out->count = e3d_behind_levels(frame->width, frame->height, out->level);
+}
+
 e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_context *out)
 {
     const e3d_frame *frame = asked->frame;
@@ -96,6 +107,7 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
                                .casters = &renderer->casters.index,
                                .pattern = e3d_sample_pattern_of(frame->msaa_samples),
                                .frustum = frame->frozen_clip_from_world ? &renderer->frozen : &renderer->view};
+    prepare_behind(frame, &out->pass.behind);
     out->history = e3d_history_of(&renderer->histories, frame);
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_PLAN_ALPHA_BINS));
     if (status != E3D_OK)

@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "base/vectors.h"
 #include "kernels/kernels.h"
+#include "kernels/types/bending.h"
 #include "kernels/types/texture_slots.h"
 #include "kernels/types/shading.h"
 #include "frame/shade/alpha_batch.h"
@@ -116,6 +117,22 @@ static void keep_light(const e3d_lane_array *radiance, const float *alpha, int f
     }
 }
 
+/* Keeps what they bend. */
+static void keep_bends(const e3d_bend_batch *bends, int first, int end, e3d_bend *out)
+{
+    static const e3d_bend NOTHING;
+    for (int i = first; i < end; i++, out++) {
+        *out = NOTHING;
+        if (!bends)
+            continue;
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 2; k++)
+                out->shift[c][k] = bends->shift[c][k][i];
+        out->blur = bends->blur[i];
+        out->depth = bends->depth[i];
+    }
+}
+
 /* Where the samples end that are neighbours both in the batch and in the list, from sample i and that place on. Mostly that is
  * the whole batch: the samples of one primitive, or of several that follow each other in the list. */
 static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_shaded_list *list)
@@ -132,7 +149,8 @@ static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_
     return end;
 }
 
-static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_shaded_list *list)
+/* bucket: of samples that are blended; else NULL. */
+static void keep(e3d_shade_memory *memory, const e3d_bucket *bucket, float sign, e3d_shaded_list *list)
 {
     const e3d_batch *batch = &memory->batch;
     for (int i = 0, end; i < batch->count; i = end) {
@@ -140,9 +158,11 @@ static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_shaded
         end = end_of_run(memory, i, place, list);
         keep_run(batch, i, end, sign, list->color + place);
         if (list->through)
-            keep_through(transmits ? &memory->textures.batch : NULL, i, end, list->through + place);
+            keep_through(bucket && bucket->transmits ? &memory->textures.batch : NULL, i, end, list->through + place);
         if (list->light)
             keep_light(memory->light, batch->alpha, i, end, list->light + place);
+        if (list->bend)
+            keep_bends(bucket && bucket->bends ? &memory->bends : NULL, i, end, list->bend + place);
         list->at = place + (end - i);
     }
 }
@@ -168,7 +188,7 @@ void e3d_find_alphas(const e3d_steps *s)
 
 void e3d_keep_layers(const e3d_steps *s)
 {
-    keep(s->out->memory, s->bucket->transmits, s->bucket->hidden ? -1.0f : 1.0f, s->out->list);
+    keep(s->out->memory, s->bucket, s->bucket->hidden ? -1.0f : 1.0f, s->out->list);
 }
 
 void e3d_keep_solid(const e3d_steps *s)
@@ -176,7 +196,7 @@ void e3d_keep_solid(const e3d_steps *s)
     e3d_batch *batch = &s->out->memory->batch;
     for (int i = 0; i < batch->count; i++)
         batch->alpha[i] = 1.0f;
-    keep(s->out->memory, 0, 1.0f, s->out->list);
+    keep(s->out->memory, NULL, 1.0f, s->out->list);
 }
 
 void e3d_lay_batch(const e3d_steps *s)

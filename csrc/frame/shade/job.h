@@ -5,6 +5,7 @@
 
 #include "base/grow.h"
 #include "e3d.h"
+#include "kernels/types/bending.h"
 #include "kernels/types/texture_slots.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
@@ -40,6 +41,7 @@ typedef struct e3d_shade_memory {
     _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
     e3d_lane_array light[3]; /* the batch's radiance, if blended samples keep theirs */
+    e3d_bend_batch bends;    /* the batch's bends, if its surfaces bend */
     _Alignas(64) e3d_surfaces surfaces; /* the surfaces of the batch and of their neighbours */
     e3d_texture_memory textures;
     _Alignas(64) e3d_mirror_batch mirrors; /* the batch in mirrors */
@@ -67,6 +69,7 @@ typedef struct e3d_shaded_list {
     float (*color)[4];   /* E3D_SINK_A_BUFFER: clamped colours, with alpha; -alpha for a face that a wireframe doesn't show */
     float (*through)[4]; /* E3D_SINK_A_BUFFER: NULL, or the shares of light that pass (e3d_alpha_layers) */
     float (*light)[4];   /* E3D_SINK_A_BUFFER: NULL, or radiances, with alpha */
+    e3d_bend *bend;      /* E3D_SINK_A_BUFFER: NULL, or what layers bend */
     int32_t primitive, at;   /* the primitive of the last sample, and the place behind that */
 } e3d_shaded_list;
 
@@ -86,7 +89,7 @@ typedef struct e3d_bucket {
     /* Not 0: it reads more than a texture of the base colour at the mesh's own coordinates (texture_slots.h) */
     int8_t mapped;
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
-    int8_t transmits;                       /* R133 */
+    int8_t transmits, bends;                /* R133, R160 */
     int8_t mirrors;                         /* not 0: its faces may show mirrors (R210) */
     int8_t lit, hidden;                     /* not 0: light falls on it; its faces are left out by a wireframe */
     int32_t first, last; /* the chain of its visible primitives */

@@ -11,6 +11,7 @@
 #include "frame/pass/view.h"
 #include "frame/shade/alpha_batch.h"
 #include "frame/shade/ambient.h"
+#include "frame/shade/bend.h"
 #include "frame/shade/texture_slots.h"
 #include "frame/shade/mirrors.h"
 #include "frame/shade/modes.h"
@@ -196,6 +197,7 @@ static void add_alpha_steps(e3d_steps *s)
     e3d_sink sink = s->out->sink;
     if (sink != E3D_SINK_ALPHA_TEST) {
         add_radiance_steps(s);
+        add(s, s->bucket->bends, e3d_find_bends);
         add(s, s->out->list->light != NULL, keep_radiance);
         add(s, tone_of(s) != E3D_TONE_NONE, map_tone);
     }

@@ -70,7 +70,7 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
     case E3D_SLOT_SHEEN_COLOR:
     case E3D_SLOT_SHEEN_ROUGHNESS: return lit && has_sheen(p);
     case E3D_SLOT_TRANSMISSION: return lit && bucket->transmits;
-    case E3D_SLOT_THICKNESS: return lit && bucket->transmits && absorbs(p);
+    case E3D_SLOT_THICKNESS: return lit && bucket->transmits && (absorbs(p) || bucket->bends);
     case E3D_SLOT_ANISOTROPY: return lit && is_anisotropic(p);
     case E3D_SLOT_IRIDESCENCE:
     case E3D_SLOT_IRIDESCENCE_THICKNESS: return lit && is_iridescent(p);
@@ -179,8 +179,7 @@ void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primiti
 
 /* ---- what textures say of a batch ---- */
 
-/* One channel of a slot's texture times a factor; or the factor alone. */
-static e3d_varying varying_of(const e3d_texture_memory *memory, e3d_texture_slot slot, int channel, float factor)
+e3d_varying e3d_varying_of(const e3d_texture_memory *memory, e3d_texture_slot slot, int channel, float factor)
 {
     int32_t texture = memory->read.of_slot[slot];
     if (texture < 0)
@@ -198,7 +197,7 @@ static e3d_normal_texture normals_of(const e3d_texture_memory *memory, e3d_textu
 
 e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_texture_memory *textures)
 {
-    return varying_of(textures, E3D_SLOT_TEXTURE, 3, bucket->material->alpha);
+    return e3d_varying_of(textures, E3D_SLOT_TEXTURE, 3, bucket->material->alpha);
 }
 
 static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, const e3d_surfaces *surfaces,
@@ -206,7 +205,7 @@ static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, cons
                       e3d_batch *batch)
 {
     for (int k = 0; k < 3; k++) {
-        e3d_varying base = varying_of(textures, E3D_SLOT_TEXTURE, k, bucket->material->color[k]);
+        e3d_varying base = e3d_varying_of(textures, E3D_SLOT_TEXTURE, k, bucket->material->color[k]);
         kernels->varying(&base, batch->count, batch->color[k]);
     }
     if (bucket->by_vertex || bucket->by_instance)
@@ -217,12 +216,12 @@ static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, cons
 static void find_listed(const e3d_kernels *kernels, const e3d_bucket *bucket, int count, e3d_texture_memory *textures)
 {
     const e3d_material *m = bucket->material;
-    e3d_varying metallic = varying_of(textures, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->is_physical ? m->physical.metallic : 0.0f);
-    e3d_varying roughness = varying_of(textures, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->is_physical ? m->physical.roughness : 1.0f);
+    e3d_varying metallic = e3d_varying_of(textures, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->is_physical ? m->physical.metallic : 0.0f);
+    e3d_varying roughness = e3d_varying_of(textures, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->is_physical ? m->physical.roughness : 1.0f);
     kernels->varying(&metallic, count, textures->batch.metallic_roughness[0]);
     kernels->varying(&roughness, count, textures->batch.metallic_roughness[1]);
     for (int k = 0; k < 3; k++) {
-        e3d_varying emissive = varying_of(textures, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
+        e3d_varying emissive = e3d_varying_of(textures, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
         kernels->varying(&emissive, count, textures->batch.emissive[k]);
     }
 }
@@ -289,7 +288,7 @@ static void add_rare(const e3d_texture_memory *textures, const e3d_physical *p, 
     brdf->anisotropic = is_anisotropic(p);
     brdf->iridescent = is_iridescent(p);
     brdf->stretch = stretch_of(textures, p);
-    brdf->iridescence_thickness = varying_of(textures, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
+    brdf->iridescence_thickness = e3d_varying_of(textures, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
     brdf->iridescence_thickness_least = least;
     brdf->iridescence_ior = p->iridescence_ior;
     brdf->is_rare = brdf->transmits || brdf->anisotropic || brdf->iridescent;
@@ -330,10 +329,10 @@ static e3d_brdf brdf_of(const e3d_prepared *pass, const e3d_bucket *bucket, cons
                    p->reflectance[1] == p->reflectance[2],
         .coat_is_mapped = textures->read.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
     };
-#define VARYING(slot, channel, name, factor) brdf.name = varying_of(textures, slot, channel, factor);
+#define VARYING(slot, channel, name, factor) brdf.name = e3d_varying_of(textures, slot, channel, factor);
     E3D_EACH_VARYING(VARYING)
     for (int k = 0; k < 3; k++) {
-#define VARYING_COLOR(slot, name, factors) brdf.name[k] = varying_of(textures, slot, k, factors[k]);
+#define VARYING_COLOR(slot, name, factors) brdf.name[k] = e3d_varying_of(textures, slot, k, factors[k]);
         E3D_EACH_VARYING_COLOR(VARYING_COLOR)
         brdf.absorption[k] = p->absorption[k];
     }
@@ -352,7 +351,7 @@ void e3d_share_mirrors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_s
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
     const e3d_brdf brdf = brdf_of(pass, bucket, memory);
-    if (brdf.absorbs)
+    if (brdf.absorbs || bucket->bends)
         find_depths(pass, memory, memory->textures.batch.depth);
     pass->kernels->physical(&memory->batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->textures.batch);
 }

@@ -22,6 +22,8 @@ void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primiti
 /* Finds the texels of an interpolated batch; with E3D_WANT_TEXTURES also tangents, mapped normals, the base colour, and the
  * values that outputs ask for. */
 void e3d_find_texture_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory);
+/* One channel of a slot's texture times a factor; or the factor alone. */
+e3d_varying e3d_varying_of(const e3d_texture_memory *memory, e3d_texture_slot slot, int channel, float factor);
 /* The alpha of a batch whose texels are found, without the vertices' and the instance's factors. */
 e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_texture_memory *textures);
 /* Finds how much a physically based material reflects of what mirrors show; color is its base colour. */

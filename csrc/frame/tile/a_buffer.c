@@ -9,6 +9,7 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/bending.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
@@ -22,11 +23,12 @@
 #include "frame/store/outputs.h"
 #include "frame/tile/a_buffer.h"
 #include "frame/tile/alpha_list.h"
+#include "frame/tile/behind.h"
 #include "frame/tile/piece.h"
 
 void e3d_a_buffer_free(e3d_a_buffer *f)
 {
-    e3d_array *const arrays[] = {&f->z, &f->cover, &f->sample, &f->of, &f->ids, &f->color, &f->through, &f->light, &f->depth, &f->which};
+    e3d_array *const arrays[] = {&f->z, &f->cover, &f->sample, &f->of, &f->ids, &f->color, &f->through, &f->light, &f->bend, &f->depth, &f->which};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         e3d_array_free(arrays[k]);
 }
@@ -46,16 +48,18 @@ static int reserve(const e3d_tile_job *job, size_t first, size_t count, size_t i
 {
     e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     int transmits = job->in->pass->draws->any_transmits, lights = e3d_radiance_of(job) != NULL;
+    int bends = e3d_plans(job->in->pass, E3D_PLAN_BENDS);
     if (!e3d_array_reserve(&f->z, count, sizeof(float)) || !e3d_array_reserve(&f->sample, count, sizeof(int32_t)) ||
         !e3d_array_reserve(&f->of, count, sizeof(int32_t)) || !e3d_array_reserve(&f->ids, ids, sizeof(int32_t)) ||
         !e3d_array_reserve(&f->color, count, sizeof(float[4])) ||
         (job->in->pass->pattern && !e3d_array_reserve(&f->cover, count, sizeof(uint32_t))) ||
         (transmits && !e3d_array_reserve(&f->through, count, sizeof(float[4]))) ||
-        (lights && !e3d_array_reserve(&f->light, count, sizeof(float[4]))))
+        (lights && !e3d_array_reserve(&f->light, count, sizeof(float[4]))) || (bends && !e3d_array_reserve(&f->bend, count, sizeof(e3d_bend))))
         return 0;
     to->color = (float (*)[4])f->color.data + first;
     to->through = transmits ? (float (*)[4])f->through.data + first : NULL;
     to->light = lights ? (float (*)[4])f->light.data + first : NULL;
+    to->bend = bends ? (e3d_bend *)f->bend.data + first : NULL;
     return 1;
 }
 
@@ -232,6 +236,10 @@ static int blend_plane(const e3d_tile_job *job, const uint32_t *cover, int plane
     if (!list_by_sample(f, cover, plane))
         return 0;
     const e3d_alpha_layers layers = layers_of(job);
+    if (e3d_plans(job->in->pass, E3D_PLAN_BENDS)) {
+        const e3d_bent_layers bent = {f->first, f->which.data, layers.color, f->bend.data};
+        e3d_begin_behind(job, &bent, layers.lit, samples);
+    }
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT)) {
         for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)
             blend_slowly(job, &layers, s, samples);

@@ -63,8 +63,9 @@ static void add_piece(const e3d_tile_job *job, uint32_t id, e3d_alpha_memory *me
     e3d_piece *piece = (e3d_piece *)memory->pieces.data + memory->pieces.count;
     if (!e3d_alpha_piece(job, id, piece))
         return;
-    /* With multisampling, all records are one overlap */
-    depth_range range = job->in->pass->pattern ? (depth_range){0.0f, 0.0f} : range_of(piece);
+    /* With multisampling, and if layers bend, all records are one overlap */
+    int at_once = job->in->pass->pattern || e3d_plans(job->in->pass, E3D_PLAN_BENDS);
+    depth_range range = at_once ? (depth_range){0.0f, 0.0f} : range_of(piece);
     if (range.near > 1.0f)
         return;
     range.far = range.far < 1.0f ? range.far : 1.0f; /* R15 */
@@ -180,7 +181,7 @@ static int32_t rows_of(const e3d_piece *pieces, int32_t count)
 /* Whether layers must be kept even if no sample has two. */
 static int keeps_all(const e3d_tile_job *job)
 {
-    return job->in->pass->pattern || e3d_plans(job->in->pass, E3D_PLAN_FRONT) || e3d_radiance_of(job);
+    return job->in->pass->pattern || e3d_plans(job->in->pass, E3D_PLAN_FRONT) || e3d_plans(job->in->pass, E3D_PLAN_BENDS) || e3d_radiance_of(job);
 }
 
 /* Blends rows y .. end - 1 of an overlap's records. If no sample is met twice, there is nothing to sort. */

@@ -7,6 +7,7 @@
 #include "base/grow.h"
 #include "base/limits.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/bending.h"
 #include "kernels/types/msaa_mixed.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shown.h"
@@ -40,6 +41,7 @@ typedef struct e3d_a_buffer {
     e3d_array color;   /* float[4]: clamped, with alpha (e3d_shaded_list.color) */
     e3d_array through; /* float[4], if light passes through some material */
     e3d_array light;   /* float[4], if radiance is asked for */
+    e3d_array bend;    /* e3d_bend, if glass bends */
     e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the layer */
     uint32_t first[E3D_TILE_SAMPLES + 1]; /* where each sample's layers begin in these */
     uint16_t left[E3D_TILE_SAMPLES];      /* samples that are not blended yet */
@@ -56,6 +58,7 @@ typedef struct e3d_alpha_memory {
     e3d_array pieces, sorted;
     e3d_array ranges, overlaps;            /* for each piece its depths (float[2]), and the number of its overlap (int32_t) */
     e3d_a_buffer a_buffer;
+    _Alignas(64) e3d_behind_batch behind;
 } e3d_alpha_memory;
 
 /* The entries of a list of pixels whose alphas cover a part of them (R190): their covers, or 0; and in the list that is left of

@@ -116,3 +116,26 @@ typedef struct e3d_brdf {
     const float *unmirrored; /* NULL, or lanes: the share of what lies around that is reflected (R211) */
     int is_rare;      /* it transmits, is anisotropic, iridescent or a mirror */
 } e3d_brdf;
+
+/* A batch of surfaces that bend. */
+typedef struct e3d_bending {
+    const int32_t *sample;                              /* the batch's, */
+    const float *normal[3], *position[3], *lit_position[3]; /* its normals, and where its samples are and are lit */
+    float eye[4];
+    float rows[3][4];             /* the first, second and fourth row of clip_from_world */
+    float depth_row[4];           /* the third of view_from_world */
+    float width, height;          /* of the picture, in pixels */
+    int32_t x, y;                 /* the tile's first sample */
+    float pixels_a_sample;
+    float index[3];               /* of refraction, by channel */
+    int is_dispersive;            /* not 0: channels differ */
+    int is_body;                  /* its thickness isn't 0 */
+    float blur_share;             /* by the index of refraction */
+    e3d_varying thickness, roughness;
+} e3d_bending;
+
+/* The bends of a batch, in its order (e3d_bend). */
+typedef struct e3d_bend_batch {
+    int32_t shift[3][2][E3D_BATCH + E3D_PAD], blur[E3D_BATCH + E3D_PAD];
+    e3d_lane_array depth;
+} e3d_bend_batch;

@@ -13,16 +13,6 @@ from .warning_list import WarningList
 
 #: The kinds, in reporting order -> the text for one and for several materials.
 KINDS = {
-    "refraction": (
-        "bends light (thickness and index of refraction)",
-        "bend light (thickness and index of refraction)",
-        "what is behind is drawn in its own place",
-    ),
-    "frost": (
-        "lets light pass and is rough",
-        "let light pass and are rough",
-        "what is behind is drawn sharp",
-    ),
     "emission map": ("has an emission map", "have emission maps", "drawn without emission"),
     "displacement": ("has a displacement map", "have displacement maps", "drawn without"),
     "anisotropy": ("is anisotropic", "are anisotropic", "drawn as if alike in all directions"),

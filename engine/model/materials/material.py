@@ -187,14 +187,21 @@ class Material(ShownInNotebooks, Versioned):
         SHARE,
         default=0.0,
         gltf="transmission/transmissionFactor",
-        doc="Share of the light that passes. It is neither bent nor blurred.",
+        doc="Share of the light that passes. ``roughness`` blurs it.",
     )
     thickness: Number = Parameter(
         NOT_NEGATIVE,
         default=0.0,
         unit="units of the mesh",
         gltf="volume/thicknessFactor",
-        doc="What lies below the surface, which the mesh's pose scales; 0 for a thin wall.",
+        doc="What lies below the surface, which the mesh's pose scales; 0 for a thin wall. It and "
+        "``ior`` bend light.",
+    )
+    dispersion: Number = Parameter(
+        NOT_NEGATIVE,
+        default=0.0,
+        gltf="dispersion/dispersion",
+        doc="How much ``ior`` differs between colours: 20 divided by the Abbe number.",
     )
     attenuation_color: ColorNumbers = Parameter(
         COLOR,

@@ -198,6 +198,7 @@ def _physical(material: Material, color_space: ColorSpace) -> dict[str, Any]:
         **{name: shading_color(held[name], color_space) for name in _SAME_COLORS},
         "metallic": 1.0 if material.metallic is None else material.metallic,
         "roughness": 1.0 if material.roughness is None else material.roughness,
+        "ior": max(material.ior, 1.0),
         "reflectance": tuple(root * root * component for component in tint),
         "absorption": tuple(_absorption(component, depth) for component in left),
         "anisotropy_turn": (linalg.cos(turn), linalg.sin(turn)),

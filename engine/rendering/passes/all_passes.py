@@ -22,6 +22,7 @@ from .exact_shadows import ExactShadows
 from .mirrors import Mirrors
 from .output_passes import SURFACE, ColorPass, SurfacePass
 from .protocol import Pass, Tools
+from .refraction import Refraction
 from .shadow_maps import ShadowMaps
 
 _MAX_KEPT = 16  # for programs that alternate between kinds of pictures
@@ -33,6 +34,7 @@ PASSES: tuple[type[Pass], ...] = (
     SurfacePass,
     AmbientOcclusion,
     Mirrors,
+    Refraction,
     ColorPass,
     Bloom,
 )
@@ -125,3 +127,5 @@ class Passes:
     def forget(self) -> None:
         """Free unused arrays."""
         self._pool.forget()
+        for one in self._all:
+            one.forget()

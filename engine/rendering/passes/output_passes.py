@@ -6,10 +6,8 @@ from the kernels.
 
 from __future__ import annotations
 
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..._native.rasterizer import NativeOptions, NativeStats
 from ..frame import OUTPUTS
@@ -17,7 +15,8 @@ from .protocol import Pass, Picture
 
 #: Prefix of outputs that hold surfaces only.
 SURFACE = "surface_"
-_ONE_SAMPLE = 1, 0
+#: Samples per pixel of what other passes read.
+ONE_SAMPLE = 1, 0
 
 
 class SurfacePass(Pass):
@@ -34,37 +33,35 @@ class SurfacePass(Pass):
             for name, array in picture.arrays.items()
             if name.startswith(SURFACE)
         }
-        _render(self, picture, targets, picture.frame_options.surfaces, _ONE_SAMPLE)
+        draw_outputs(self, picture, targets, picture.frame_options.surfaces, ONE_SAMPLE)
 
 
 class ColorPass(Pass):
     """Draws the picture: the frame's outputs, and others that later passes read."""
 
-    reads = ("shadow_maps", "exact_shadows", "ambient_visibility", "mirrors")
+    reads = ("shadow_maps", "exact_shadows", "ambient_visibility", "mirrors", "behind")
     writes = tuple(OUTPUTS)
 
     def draw(self, picture: Picture) -> None:
-        options = picture.frame_options
-        picture.drawn = _render(
-            *(self, picture, picture.targets, options.native, self.tools.samples),
-            picture.view.rays if options.has_backdrop else None,
-            picture.arrays.get("ambient_visibility"),
-            picture.mirrors or None,
+        native = picture.frame_options.native
+        picture.drawn = draw_outputs(
+            self, picture, picture.targets, native, self.tools.samples, has_light=True
         )
         picture.drawn.shadow_maps, picture.drawn.shadow_maps_drawn = picture.shadow_maps
 
 
-def _render(
+def draw_outputs(
     one: Pass,
     picture: Picture,
     targets: dict[str, np.ndarray],
     options: NativeOptions,
     samples: tuple[int, int],
-    rays: NDArray[np.float32] | None = None,
-    visibility: NDArray[np.float32] | None = None,
-    mirrors: list[tuple[Any, ...]] | None = None,
+    *,
+    has_light: bool = False,
 ) -> NativeStats:
+    """Draw outputs in one call of the core; ``has_light``: with what earlier passes found."""
     view = picture.view
+    read = picture.arrays if has_light else {}
     return one.tools.native.render(
         one.tools.draw_list.native,
         targets,
@@ -77,7 +74,9 @@ def _render(
         id(view.camera),
         *picture.depth_range,
         picture.sight.frozen,
-        rays,
-        visibility,
-        mirrors,
+        view.rays if has_light and picture.frame_options.has_backdrop else None,
+        read.get("ambient_visibility"),
+        (picture.mirrors or None) if has_light else None,
+        read.get("behind"),
+        read.get("behind_depth"),
     )

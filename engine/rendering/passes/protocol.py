@@ -119,6 +119,9 @@ class Pass:
         """Return the arrays that it needs, besides its inputs."""
         return {}
 
+    def forget(self) -> None:
+        """Free unused arrays of its own."""
+
     def draw(self, picture: Picture) -> None:
         """Draw the pass's results."""
         raise NotImplementedError

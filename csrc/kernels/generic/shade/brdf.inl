@@ -73,14 +73,13 @@ static ALWAYS_INLINE void lobe_begin(const vf32 normal[3], const vf32 view[3], l
     lobe->root = v_sqrt(v_add(lobe->A, v_mul(v_sub(one, lobe->A), v_mul(lobe->nv, lobe->nv))));
 }
 
-static ALWAYS_INLINE void brdf_view(const e3d_lighting *lighting, const e3d_batch *batch, int i, brdf_lanes *at)
+/* Finds the direction towards the eye (R31). */
+static ALWAYS_INLINE void brdf_view(const float eye[4], const float *const position[3], int i, vf32 view[3])
 {
-    for (int k = 0; k < 3; k++) {
-        vf32 eye = v_setf(lighting->eye[k]);
-        at->view[k] = lighting->eye[3] != 0.0f ? v_sub(eye, v_loadf(batch->position[k] + i)) : eye;
-    }
-    if (lighting->eye[3] != 0.0f)
-        unit_length(at->view);
+    for (int k = 0; k < 3; k++)
+        view[k] = eye[3] != 0.0f ? v_sub(v_setf(eye[k]), v_loadf(position[k] + i)) : v_setf(eye[k]);
+    if (eye[3] != 0.0f)
+        unit_length(view);
 }
 
 static ALWAYS_INLINE vf32 brdf_reflectance(const e3d_brdf *brdf, int k, int i)
@@ -99,7 +98,8 @@ static ALWAYS_INLINE void brdf_begin(const e3d_batch *batch, const e3d_texture_b
     vf32 one = v_setf(1.0f), normal[3], albedo[3], f[3], specular = varying_at(&brdf->specular, i);
     load_three(batch->normal, i, normal);
     load_three(batch->color, i, albedo);
-    brdf_view(lighting, batch, i, at);
+    const float *const position[3] = {batch->position[0], batch->position[1], batch->position[2]};
+    brdf_view(lighting->eye, position, i, at->view);
     lobe_width(varying_at(&brdf->roughness, i), &at->base);
     if (brdf->is_widened)
         lobe_widen(batch, &brdf->spread, i, &at->base);

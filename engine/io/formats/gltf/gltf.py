@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from ...reading.documents import Document, TreeRecord
 from ...reading.reader_registry import Reader
 from ...reading.sources import Source
-from ...reading.undrawn import warn_of_undrawn
 from ...scenes.tree_objects import tree_counts, tree_objects
 from ...scenes.tree_posing import shown_nodes
 from .gltf_accessors import GltfAccessors
@@ -21,7 +20,7 @@ from .gltf_draco import GltfDraco
 from .gltf_extensions import check_extensions
 from .gltf_file import GltfFile
 from .gltf_lenses import read_cameras, read_lights
-from .gltf_materials import GltfMaterials, undrawn_kinds
+from .gltf_materials import GltfMaterials
 from .gltf_meshes import GltfMeshes
 from .gltf_motion import read_clips, read_skins
 from .gltf_nodes import read_nodes, read_roots, with_fitting
@@ -89,7 +88,6 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, values: bool) -> tuple[Tree
         variants=materials.variant_names(),
         extras=file.tree.get("extras"),
     )
-    warn_of_undrawn(map(undrawn_kinds, tree.materials), file.warnings)
     return facing_forward(file, tree), sorted(primitives.own)
 
 

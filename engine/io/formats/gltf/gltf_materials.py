@@ -315,15 +315,6 @@ class GltfMaterials:
         return {}
 
 
-def undrawn_kinds(material: Material) -> set[str]:
-    """Return the undrawn features of a material, as keys of `undrawn.KINDS`."""
-    is_metal = material.metallic == 1.0 and material.metallic_roughness_texture is None
-    if not material.transmission or is_metal:
-        return set()
-    kinds = {"refraction"} if material.thickness and material.ior != 1.0 else set()
-    return kinds | ({"frost"} if material.roughness else set())
-
-
 def _from_glossiness(values: dict[str, Any], glossiness: float) -> dict[str, Any]:
     """Convert a specular-glossiness material to metallic-roughness."""
     found: dict[str, Any] = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}

@@ -1,0 +1,32 @@
+/* The data of refraction: what a fragment shifts and blurs, and the picture behind it. */
+#pragma once
+
+#include <stdint.h>
+
+#include "base/limits.h"
+#include "data/behind_levels.h"
+
+/* How far a fragment shifts what is behind it, in 1/256 pixel: [channel], across and down; and how much it blurs it (R164, R165). */
+typedef struct e3d_bend {
+    int32_t shift[3][2], blur;
+    float depth; /* the fragment's metric depth */
+} e3d_bend;
+
+/* The picture behind, level by level. */
+typedef struct e3d_behind_view {
+    const float *texels, *depth;
+    e3d_behind_level level[E3D_BEHIND_LEVELS];
+    int count;
+} e3d_behind_view;
+
+enum { E3D_BEHIND_BATCH = 256 };
+typedef float e3d_behind_lanes[E3D_BEHIND_BATCH + E3D_PAD];
+
+/* Samples that show it, and where. */
+typedef struct e3d_behind_batch {
+    int32_t sample[E3D_BEHIND_BATCH + E3D_PAD], blur[E3D_BEHIND_BATCH + E3D_PAD];
+    e3d_behind_lanes x[3], y[3]; /* by channel, in pixels: the middle of the first one is 0 */
+    e3d_behind_lanes level;
+    e3d_behind_lanes light[4];   /* red, green, blue, and the share */
+    int count, is_dispersive;
+} e3d_behind_batch;

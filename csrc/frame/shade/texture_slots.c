@@ -300,7 +300,7 @@ static e3d_varying spread_of(const e3d_texture_memory *textures, e3d_texture_slo
     int32_t texture = textures->read.of_slot[slot];
     if (texture < 0 || !textures->read.read[texture].view->has_spread)
         return (e3d_varying){NULL, 0.0f};
-    return varying_of(textures, slot, 3, scale * scale);
+    return e3d_varying_of(textures, slot, 3, scale * scale);
 }
 
 static void add_mirrors(const e3d_bucket *bucket, const e3d_shade_memory *memory, e3d_brdf *brdf)

@@ -6,7 +6,6 @@ from the kernels.
 
 from __future__ import annotations
 
-
 import numpy as np
 
 from ..._native.rasterizer import NativeOptions, NativeStats

@@ -8,7 +8,7 @@ enum {
     E3D_OCCLUSION_CELL = 8,   /* sites a side that together look in all directions */
     E3D_OCCLUSION_NUMBERS = E3D_OCCLUSION_CELL * E3D_OCCLUSION_CELL,
     E3D_OCCLUSION_TAPS = 5,   /* places to either side */
-    E3D_OCCLUSION_REACH = 64, /* the greatest distance in sites */
+    E3D_OCCLUSION_REACH = 192, /* the greatest distance in sites */
     E3D_OCCLUSION_FILTER = 4, /* how many sites to either side the filter reads */
     E3D_OCCLUSION_SPAN = 2 * E3D_OCCLUSION_FILTER + 1,
     E3D_OCCLUSION_QUADRANT = 10, /* sectors of a right angle */

@@ -8,7 +8,7 @@ enum {
     E3D_OCCLUSION_CELL = 8,   /* sites a side that together look in all directions */
     E3D_OCCLUSION_NUMBERS = E3D_OCCLUSION_CELL * E3D_OCCLUSION_CELL,
     E3D_OCCLUSION_TAPS = 5,   /* places to either side */
-    E3D_OCCLUSION_REACH = 64, /* the greatest distance in sites */
+    E3D_OCCLUSION_REACH = 192, /* the greatest distance in sites */
     E3D_OCCLUSION_FILTER = 4, /* how many sites to either side the filter reads */
     E3D_OCCLUSION_SPAN = 2 * E3D_OCCLUSION_FILTER + 1,
     E3D_OCCLUSION_QUADRANT = 10, /* sectors of a right angle */
@@ -22,6 +22,8 @@ enum {
 #define E3D_OCCLUSION_NO_CHANGE 0x1p126f /* the change of nearness where nothing shows beside a site */
 #define E3D_OCCLUSION_LEAST_FACING 0x1p-20f /* of a normal and the line of sight */
 #define E3D_OCCLUSION_LEAST 0x1p-126f
+#define E3D_OCCLUSION_LOOSE 0x1p-3f /* R128: the weight of sites off the surface, which counts where few lie on it */
+#define E3D_OCCLUSION_FALL 0x1p-7f  /* and how fast it falls with their distance, in sites */
 #define E3D_OCCLUSION_REST 0x1p-10f /* R180: the weight of sites off the surface, if there are no others */
 #define E3D_OCCLUSION_MOST 2.0f     /* no share is greater than pi/2: this keeps overflowed sums finite */
 #define E3D_OCCLUSION_UNIT 0x1p-13f /* of the light of sectors, halved */

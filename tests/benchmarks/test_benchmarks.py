@@ -332,3 +332,10 @@ def test_beside_peers():
     assert row["version"] == e3d.__version__
     assert min(value for key, value in row.items() if key not in ("library", "version")) > 0
     assert row["first_picture_s"] > row["import_s"]
+
+
+def test_occlusion_is_compared_with_rays():
+    arguments = ["--scene", "cubes", "--size", "160", "90", "--pixels", "200", "--repeats", "1"]
+    (row,) = report("occlusion.py", *arguments, plainly=True)["rows"]
+    assert row["scene"] == "cubes" and 0.0 < row["mean"] < 0.05 and row["p95"] < 0.2
+    assert 0.0 < row["without"] and 0.0 < row["with"]

@@ -97,6 +97,102 @@ def test_a_corner_is_as_dark_as_the_integral(name, radius):
     assert tried >= 5
 
 
+def vertical_corner():
+    """Two walls that meet in the line x = z = 0, seen so that it leans on the screen."""
+    scene = white_scene()
+    scene.add(e3d.box((6, 6, 0.02)), translation=(3, 0, -0.01))
+    scene.add(e3d.box((0.02, 6, 6)), translation=(-0.01, 0, 3))
+    return scene, (e3d.PerspectiveCamera(0.6), e3d.look_at((2.6, 0.5, 4.0), (0.5, 0, 0.5)))
+
+
+def test_a_crease_has_no_dashes_and_no_bright_line():
+    scene, view = vertical_corner()
+    with Renderer(SIZE) as renderer:
+        place = renderer.render(scene, view, outputs=("world_position",)).world_position
+    shown = visible(scene, view, radius=0.4).astype(int)
+    distance = np.maximum(place[..., 0], place[..., 2])
+    columns = np.arange(SIZE[0])
+    line = [int(columns[np.argmin(row)]) for row in distance]
+    rows = range(20, SIZE[1] - 20)
+    for aside in (-3, -1, 0, 1, 3):
+        along = np.array([shown[y, line[y] + aside] for y in rows])
+        assert np.ptp(along) < 32, aside  # dashes were 100 and more
+    middle = np.array([shown[y, line[y]] for y in rows])
+    beside = np.array([(shown[y, line[y] - 8] + shown[y, line[y] + 8]) / 2 for y in rows])
+    assert (middle < beside + 4).all()
+
+
+@pytest.mark.parametrize("mesh", [e3d.uv_sphere(0.5, (12, 6)), e3d.icosphere(0.5, 1)])
+def test_smooth_coarse_meshes_do_not_hide_themselves(mesh):
+    scene = white_scene()
+    scene.add(mesh)
+    camera = e3d.PerspectiveCamera(0.6), e3d.look_at((0.3, 0.5, 2.5), (0, 0, 0))
+    shown = visible(scene, camera, radius=0.5)
+    with Renderer(SIZE) as renderer:
+        inside = renderer.render(scene, camera, outputs=("depth",)).depth > 0
+    assert (shown[inside] >= 254).mean() > 0.98 and shown[inside].min() > 240
+
+
+def test_faces_of_a_smooth_bowl_do_not_show():
+    """From inside, a coarse bowl is as dark as the smooth one within two percent."""
+    camera = e3d.PerspectiveCamera(0.9), e3d.look_at((0, 1.2, 0.1), (0, -1, 0))
+    means = []
+    for sides in ((24, 12), (192, 96)):
+        scene = white_scene()
+        bowl = e3d.uv_sphere(1.0, sides)
+        bowl.faces, bowl.normals = bowl.faces[:, ::-1], -bowl.normals
+        scene.add(bowl)
+        means.append(visible(scene, camera, radius=0.8).astype(float))
+    inside = np.s_[60:180, 100:220]
+    assert np.abs(means[0] - means[1])[inside].mean() < 5.0
+
+
+def rays_of(scene, place, normal, radius, count=256):
+    """The visibility of places by rays: directions by the cosine, what they meet by distance."""
+    random = np.random.default_rng(7)
+    u, turn = random.random((len(place), count)), 2 * np.pi * random.random((len(place), count))
+    directions = np.stack([np.sqrt(u) * np.cos(turn), np.sqrt(u) * np.sin(turn)], axis=-1)
+    aside = np.where(np.abs(normal[:, :1]) < 0.9, [[1.0, 0, 0]], [[0, 1.0, 0]])
+    tangent = np.cross(aside, normal)
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+    axes = np.stack([tangent, np.cross(normal, tangent)], axis=1)
+    cast = directions @ axes + np.sqrt(1 - u)[..., None] * normal[:, None]
+    start = (place + 1e-3 * radius * normal)[:, None] + 0 * cast
+    hits = scene.raycast_many(start.reshape(-1, 3), cast.reshape(-1, 3), max_distance=radius)
+    near = np.clip(2 - 2 * (hits.distance / radius) ** 2, 0, 1)
+    return 1 - near.reshape(len(place), count).mean(axis=1)
+
+
+def furnished_corner():
+    scene = corner(2.0)
+    scene.add(e3d.box(0.4), translation=(0.3, 0.2, 0.4))
+    scene.add(e3d.uv_sphere(0.3, (64, 32)), translation=(-0.5, 0.3, 0.5))
+    return scene
+
+
+def two_cubes():
+    scene = white_scene()
+    scene.add(e3d.box((8, 0.02, 8)), translation=(0, -0.01, 0))
+    scene.add(e3d.box(0.8), translation=(-0.2, 0.4, 0))
+    scene.add(e3d.box(0.6), translation=(0.5, 0.3, 0.2))
+    return scene
+
+
+@pytest.mark.parametrize("make, most", [(furnished_corner, 0.021), (two_cubes, 0.0055)])
+def test_scenes_are_as_dark_as_rays_say(make, most):
+    """On average; horizons found from depths alone were farther off than that."""
+    scene, view, radius = make(), CAMERAS["perspective"], 0.5
+    with Renderer((640, 480)) as renderer:
+        outputs = ("depth", "world_position", "world_normal")
+        frame = renderer.render(scene, view, outputs=outputs)
+    shown = visible(scene, view, (640, 480), radius) / 255.0
+    drawn = np.argwhere(frame.depth > 0)
+    at = tuple(np.random.default_rng(2).permutation(drawn)[:600].T)
+    place, normal = (getattr(frame, name)[at].astype(float) for name in outputs[1:])
+    off = np.abs(shown[at] - rays_of(scene, place, normal, radius))
+    assert off.mean() < most and np.quantile(off, 0.95) < 8 * most
+
+
 def test_more_distance_and_less_radius_are_lighter():
     scene = corner()
     middle = [

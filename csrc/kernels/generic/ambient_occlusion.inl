@@ -359,7 +359,9 @@ static ALWAYS_INLINE vf32 occlusion_mean(const occlusion_site sites[E3D_OCCLUSIO
             continue;
         vf32 off = v_mul(occlusion_abs(v_sub(rise, v_mul(here->change, steps))), here->firm);
         vf32 off_other = v_mul(occlusion_abs(v_sub(rise, v_mul(other->change, steps))), other->firm);
-        vf32 weight = v_max(v_sub(one, v_max(off, off_other)), zero);
+        vf32 farther = v_max(off, off_other);
+        vf32 rest = v_sub(v_setf(E3D_OCCLUSION_LOOSE), v_mul(farther, v_setf(E3D_OCCLUSION_FALL)));
+        vf32 weight = v_max(v_max(v_sub(one, farther), rest), zero);
         if (k == 0 || k == E3D_OCCLUSION_SPAN - 1)
             weight = v_mul(weight, v_setf(0.5f));
         weight = v_self(v_eq(other->near, zero), zero, weight);

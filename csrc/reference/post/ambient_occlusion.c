@@ -229,7 +229,9 @@ static float mean(const site *const around[SPAN], const float share[SPAN], int a
             continue;
         float off = fabsf((other->near - here->near) - here->change[axis] * steps) * here->firm;
         float off_other = fabsf((other->near - here->near) - other->change[axis] * steps) * other->firm;
-        float weight = ref_max(1.0f - ref_max(off, off_other), 0.0f) * (k == 0 || k == SPAN - 1 ? 0.5f : 1.0f);
+        float farther = ref_max(off, off_other);
+        float weight = ref_max(ref_max(1.0f - farther, E3D_OCCLUSION_LOOSE - farther * E3D_OCCLUSION_FALL), 0.0f);
+        weight = weight * (k == 0 || k == SPAN - 1 ? 0.5f : 1.0f);
         sum = sum + weight * share[k];
         weights = weights + weight;
     }

@@ -13,6 +13,7 @@ from images import (  # noqa: F401
     scenes_looks,
     scenes_multisampled,
     scenes_physical,
+    scenes_refraction,
     scenes_shadows,
     scenes_textures,
     scenes_tone,

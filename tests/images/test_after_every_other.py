@@ -38,6 +38,7 @@ NUMBERS = {
     "alpha_to_coverage": (True,),
     "ambient_occlusion": (True,),
     "ambient_occlusion_radius": (0.7,),
+    "refraction": (False,),
 }
 #: Options that do something only with others.
 BESIDE = {

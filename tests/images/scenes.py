@@ -14,6 +14,7 @@ from images import (  # noqa: F401
     scenes_mirrors,
     scenes_multisampled,
     scenes_physical,
+    scenes_refraction,
     scenes_shadows,
     scenes_textures,
     scenes_tone,

@@ -39,6 +39,7 @@ NUMBERS = {
     "ambient_occlusion": (True,),
     "ambient_occlusion_radius": (0.7,),
     "mirror_depth": (0, 1),
+    "refraction": (False,),
 }
 #: Options that do something only with others.
 BESIDE = {

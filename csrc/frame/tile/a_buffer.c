@@ -238,7 +238,8 @@ static int blend_plane(const e3d_tile_job *job, const uint32_t *cover, int plane
     const e3d_alpha_layers layers = layers_of(job);
     if (e3d_plans(job->in->pass, E3D_PLAN_BENDS)) {
         const e3d_bent_layers bent = {f->first, f->which.data, layers.color, f->bend.data};
-        e3d_begin_behind(job, &bent, layers.lit, samples);
+        if (!e3d_begin_behind(job, &bent, plane, layers.lit, samples))
+            return 0;
     }
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT)) {
         for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)

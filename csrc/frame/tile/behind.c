@@ -1,7 +1,9 @@
 /* raster and shade, blended records: adds up how far the layers of each sample shift what is behind them, and begins with the
  * picture behind there (R166, R167). The sums are integers, so that the order of the layers doesn't matter. */
 #include <math.h>
+#include <string.h>
 
+#include "base/grow.h"
 #include "base/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
@@ -49,8 +51,8 @@ static float place_of(const e3d_frame *frame, int32_t sample)
     return ((float)sample + 0.5f) * (1.0f / (float)frame->samples_axis) - 0.5f;
 }
 
-/* Adds a sample to the batch, unless nothing is bent or blurred in it after all. */
-static void list(const e3d_tile_job *job, int32_t sample, const e3d_bend *sum, e3d_behind_batch *batch)
+/* Adds a sample to the batch, unless nothing is bent or blurred in it after all; returns whether it did. */
+static int list(const e3d_tile_job *job, int32_t sample, const e3d_bend *sum, e3d_behind_batch *batch)
 {
     const e3d_prepared *pass = job->in->pass;
     float x = place_of(pass->frame, job->tile.x + sample % E3D_TILE), y = place_of(pass->frame, job->tile.y + sample / E3D_TILE);
@@ -67,6 +69,7 @@ static void list(const e3d_tile_job *job, int32_t sample, const e3d_bend *sum, e
     batch->blur[n] = sum->blur;
     batch->is_dispersive |= some && differ;
     batch->count += some;
+    return some;
 }
 
 /* ---- beyond the picture (R167) ---- */
@@ -172,7 +175,29 @@ static void put_radiance(const e3d_frame *frame, const e3d_behind_batch *batch, 
     }
 }
 
-static void show(const e3d_tile_job *job, e3d_behind_batch *batch, float (*lit)[3], e3d_samples *samples)
+/* Keeps what pixels begin with, for other planes. */
+static void note(const e3d_behind_batch *batch, const e3d_samples *samples, e3d_begun *begun)
+{
+    for (int i = 0; i < batch->count; i++) {
+        int32_t at = batch->sample[i];
+        for (int k = 0; k < 3; k++)
+            begun[at].color[k] = samples->color[k][at];
+        begun[at].color[3] = samples->counts[at];
+    }
+}
+
+/* Begins with what an earlier plane began with, if its bends were the same. */
+static int begins_alike(const e3d_begun *begun, const e3d_bend *sum, int32_t at, e3d_samples *samples)
+{
+    if (!begun || memcmp(&begun[at].sum, sum, sizeof *sum) != 0)
+        return 0;
+    for (int k = 0; k < 3; k++)
+        samples->color[k][at] = begun[at].color[k];
+    samples->counts[at] = begun[at].color[3];
+    return 1;
+}
+
+static void show(const e3d_tile_job *job, e3d_behind_batch *batch, e3d_begun *begun, float (*lit)[3], e3d_samples *samples)
 {
     const e3d_prepared *pass = job->in->pass;
     int opaque = e3d_shows_environment(pass->frame) || pass->frame->background[3] > 0.5f;
@@ -187,22 +212,46 @@ static void show(const e3d_tile_job *job, e3d_behind_batch *batch, float (*lit)[
     put_colors(opaque, mapped, batch, samples);
     if (lit)
         put_radiance(pass->frame, batch, lit);
+    if (begun)
+        note(batch, samples, begun);
     batch->count = batch->is_dispersive = 0;
 }
 
-void e3d_begin_behind(const e3d_tile_job *job, const e3d_bent_layers *layers, float (*lit)[3], e3d_samples *samples)
+/* The sum of a sample's bends. */
+static e3d_bend sum_of(const e3d_bent_layers *layers, int32_t sample)
+{
+    e3d_bend sum = {.depth = INFINITY};
+    for (uint32_t i = layers->first[sample]; i < layers->first[sample + 1]; i++)
+        if (layers->color[layers->which[i]][3] >= E3D_LEAST_ALPHA)
+            add(&layers->bend[layers->which[i]], &sum);
+    return sum;
+}
+
+/* With multisampling: what pixels began with in earlier planes; NULL when memory is out. */
+static e3d_begun *begun_in(e3d_alpha_memory *memory, int plane)
+{
+    if (!e3d_array_reserve(&memory->begun, E3D_TILE_SAMPLES, sizeof(e3d_begun)))
+        return NULL;
+    return plane ? memory->begun.data : memset(memory->begun.data, 0, E3D_TILE_SAMPLES * sizeof(e3d_begun));
+}
+
+int e3d_begin_behind(const e3d_tile_job *job, const e3d_bent_layers *layers, int plane, float (*lit)[3], e3d_samples *samples)
 {
     e3d_behind_batch *batch = &job->memory->alpha.behind;
+    int several = job->in->pass->pattern != NULL;
+    e3d_begun *begun = several ? begun_in(&job->memory->alpha, plane) : NULL;
     batch->count = batch->is_dispersive = 0;
+    if (several && !begun)
+        return 0;
     for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++) {
-        e3d_bend sum = {.depth = INFINITY};
-        for (uint32_t i = layers->first[s]; i < layers->first[s + 1]; i++)
-            if (layers->color[layers->which[i]][3] >= E3D_LEAST_ALPHA)
-                add(&layers->bend[layers->which[i]], &sum);
-        if (!is_nothing(&sum))
-            list(job, s, &sum, batch);
+        const e3d_bend sum = sum_of(layers, s);
+        if (is_nothing(&sum) || begins_alike(begun, &sum, s, samples))
+            continue;
+        if (list(job, s, &sum, batch) && begun)
+            begun[s].sum = sum;
         if (batch->count == E3D_BEHIND_BATCH)
-            show(job, batch, lit, samples);
+            show(job, batch, begun, lit, samples);
     }
-    show(job, batch, lit, samples);
+    show(job, batch, begun, lit, samples);
+    return 1;
 }

@@ -12,5 +12,6 @@ typedef struct e3d_bent_layers {
     const e3d_bend *bend;
 } e3d_bent_layers;
 
-/* Where layers bend, replaces the samples' colours by those of the picture behind. `lit`: the radiance of the tile's pixels, or NULL. */
-void e3d_begin_behind(const e3d_tile_job *job, const e3d_bent_layers *layers, float (*lit)[3], e3d_samples *samples);
+/* Where layers bend, replaces the samples' colours by those of the picture behind. `lit`: the radiance of the tile's pixels, or NULL.
+ * Planes of a tile come in order, the first one being 0. Returns 0 when memory is out. */
+int e3d_begin_behind(const e3d_tile_job *job, const e3d_bent_layers *layers, int plane, float (*lit)[3], e3d_samples *samples);

@@ -36,6 +36,7 @@ void e3d_alpha_free(e3d_alpha_memory *memory)
     e3d_array_free(&memory->sorted);
     e3d_array_free(&memory->ranges);
     e3d_array_free(&memory->overlaps);
+    e3d_array_free(&memory->begun);
     e3d_a_buffer_free(&memory->a_buffer);
 }
 

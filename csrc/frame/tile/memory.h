@@ -59,6 +59,7 @@ typedef struct e3d_alpha_memory {
     e3d_array ranges, overlaps;            /* for each piece its depths (float[2]), and the number of its overlap (int32_t) */
     e3d_a_buffer a_buffer;
     _Alignas(64) e3d_behind_batch behind;
+    e3d_array begun; /* with multisampling, if glass bends: e3d_begun, for each pixel */
 } e3d_alpha_memory;
 
 /* The entries of a list of pixels whose alphas cover a part of them (R190): their covers, or 0; and in the list that is left of

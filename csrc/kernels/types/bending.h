@@ -19,6 +19,12 @@ typedef struct e3d_behind_view {
     int count;
 } e3d_behind_view;
 
+/* What a pixel began with in an earlier plane: the sum of its bends, its colour and alpha. Without a sum it began with nothing. */
+typedef struct e3d_begun {
+    e3d_bend sum;
+    float color[4];
+} e3d_begun;
+
 enum { E3D_BEHIND_BATCH = 256 };
 typedef float e3d_behind_lanes[E3D_BEHIND_BATCH + E3D_PAD];
 

@@ -195,7 +195,7 @@ def test_where_nothing_is_bent(options):
 def test_the_picture_behind_takes_memory_only_where_glass_shows():
     scene = stripes()
     with Renderer(SIZE) as renderer:
-        one = next(p for p in renderer._passes._all if type(p).__name__ == "Refraction")
+        one = next(p for p in renderer._painter.passes._all if type(p).__name__ == "Refraction")
         renderer.render(scene, camera())
         assert not one._pool._free
         scene.add(pane(roughness=0.4))

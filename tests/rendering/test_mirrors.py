@@ -89,6 +89,32 @@ def test_a_mirror_shows_what_stands_mirrored_behind_a_hole(light, tone_mapping):
     assert (differs > 0).sum() <= 10  # pixels whose centres an edge passes within a rounding
 
 
+@pytest.mark.parametrize(
+    "camera",
+    [
+        e3d.OrthographicCamera(1.0),
+        e3d.PerspectiveCamera(0.8, reversed_depth=True, znear=1e-3),
+        e3d.IntrinsicsCamera(200, 200, 128, 96),
+    ],
+    ids=["orthographic", "reversed depth", "intrinsics"],
+)
+@pytest.mark.parametrize("options", [{}, {"culling": "always"}, {"shading": "forward"}])
+def test_cameras_and_ways_of_drawing(camera, options):
+    pictures = []
+    for scene in (mirrored_by(LIT, SIDEWAYS), mirrored_behind(LIT, SIDEWAYS)):
+        with Renderer(SIZE) as renderer:
+            pictures.append(renderer.render(scene, (camera, POSE), **options).color)
+    assert (pictures[0] != pictures[1]).any(axis=2).sum() <= 10
+
+
+def test_a_far_plane_cuts_nothing_off_in_mirrors():
+    near = e3d.PerspectiveCamera(0.8, zfar=2.6), POSE
+    with Renderer(SIZE) as renderer:
+        shown = renderer.render(mirrored_by(FLAT), near).color
+        whole = renderer.render(mirrored_by(FLAT), (CAMERA, POSE)).color
+    assert (shown == whole).all(axis=2).mean() > 0.9
+
+
 def test_a_floor_mirrors():
     scene = e3d.Scene(ambient=e3d.linear(1, 1, 1), background=(0, 0, 255))
     scene.add(matter(e3d.plane((4, 4)), color=(0, 0, 0), mirror=1.0))

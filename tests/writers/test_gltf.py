@@ -206,6 +206,18 @@ def test_images_keep_their_bytes_while_they_are_the_same(tmp_path):
     assert image.startswith(b"\x89PNG")
 
 
+def test_mirrors_are_lost_with_a_warning(tmp_path):
+    scene = e3d.Scene()
+    pane = e3d.plane()
+    pane.materials = [e3d.Material(name="pane", metallic=1.0, mirror=0.5)]
+    scene.add(pane)
+    with pytest.warns(Engine3DWarning, match="gltf files do not hold mirror of 'pane'"):
+        scene.save(tmp_path / "pane.glb")
+    scene.save(tmp_path / "pane.e3d.json")
+    (node,) = e3d.load_scene(tmp_path / "pane.e3d.json").nodes
+    assert node.object.materials[0].mirror == 0.5
+
+
 @pytest.mark.parametrize("end", ENDS)
 def test_a_mesh_becomes_a_file(tmp_path, end):
     mesh = e3d.box()

@@ -156,8 +156,8 @@ class FrameOptions:
     @cached_property
     def opaque(self) -> _native.NativeOptions:
         """The same options for drawing what isn't blended."""
-        numbers, *rest = self._lit
-        return _native.NativeOptions(numbers | _OPAQUE, *rest)
+        numbers, environment, backdrop, fog = self._lit
+        return _native.NativeOptions(numbers | _OPAQUE, environment, backdrop, fog)
 
     def headlight(self, towards_viewer: Sequence[float]) -> Headlight | None:
         """Return the light of a scene without lights: with the ambient light it makes white.

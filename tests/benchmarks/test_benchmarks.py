@@ -338,4 +338,4 @@ def test_occlusion_is_compared_with_rays():
     arguments = ["--scene", "cubes", "--size", "160", "90", "--pixels", "200", "--repeats", "1"]
     (row,) = report("occlusion.py", *arguments, plainly=True)["rows"]
     assert row["scene"] == "cubes" and 0.0 < row["mean"] < 0.05 and row["p95"] < 0.2
-    assert 0.0 < row["without"] and 0.0 < row["with"]
+    assert min(row["without"], row["with"]) > 0.0

@@ -35,7 +35,8 @@ NUMBERS = {
     "batching": (False,),
     "transparent_outputs": (True,),
     "bloom": (1.0,),
-    "alpha_to_coverage": (True,),
+    "alpha_to_coverage": (False,),
+    "specular_antialiasing": (False,),
     "ambient_occlusion": (True,),
     "ambient_occlusion_radius": (0.7,),
 }

@@ -216,6 +216,13 @@ def test_filters_of_textures_and_shapes_of_lines():
     assert given.appearance == {"line_shape": "round"}
 
 
+def test_what_is_on_by_default_can_be_switched_off():
+    off = ("--no-specular-antialiasing", "--no-alpha-to-coverage")
+    given = options.settings(parse("render", "a.obj", *off))
+    assert given.appearance == {"specular_antialiasing": False, "alpha_to_coverage": False}
+    assert options.settings(parse("render", "a.obj")).appearance == {}
+
+
 @pytest.mark.parametrize("text", ["0", "17", "2.5", "many"])
 def test_bad_anisotropy(text):
     with pytest.raises(argparse.ArgumentTypeError):

@@ -1,7 +1,8 @@
 """Pictures of glTF files beside those that other renderers drew of the same file, camera and light.
 
 ``spec`` is Appendix B of glTF 2.0 in float64 with rays, without shadows, with one sample in the
-middle of each pixel and textures without mip levels; this engine is asked for the same. The measure
+middle of each pixel, its roughness as it is, and textures without mip levels; this engine is asked
+for the same. The measure
 is NVIDIA's FLIP of what a screen shows, over black. No other renderer may be nearer to the truth.
 """
 
@@ -91,7 +92,9 @@ def drawn(name, size):
     pose = e3d.look_at(camera["eye"], camera["target"], camera["up"])
     lens = e3d.PerspectiveCamera(camera["yfov"], znear=camera["znear"], zfar=camera["zfar"])
     camera = scene.add(lens, pose=pose)
-    frame = render(scene, camera, size=size, samples=SAMPLES.get(name, 1))
+    frame = render(
+        scene, camera, size=size, samples=SAMPLES.get(name, 1), specular_antialiasing=False
+    )
     return frame.color[..., :3].astype(np.float32) / 255
 
 

@@ -137,9 +137,10 @@ def _name_of(path: Any) -> str | None:
 
 def warn(message: str) -> None:
     """Issue an `Engine3DWarning` that points to the calling line outside engine3d."""
-    package, level = __name__.partition(".")[0], 1
+    # Decorators of these packages stand between functions of engine3d.
+    passed, level = {__name__.partition(".")[0], "numpy", "contextlib"}, 1
     frame: FrameType | None = sys._getframe()
-    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] in passed:
         level, frame = level + 1, frame.f_back
     warnings.warn(message, Engine3DWarning, stacklevel=level)
 

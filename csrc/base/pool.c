@@ -9,7 +9,6 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-#include <stdint.h>
 
 #include "base/clock.h"
 #include "base/fpenv.h"
@@ -26,6 +25,8 @@ static struct {
     int threads;           /* how many threads exist, without the caller */
     int wanted, running;   /* how many helpers may still join the job (none once it is over); how many are at work */
     int64_t used;          /* the CPU time of helpers that have returned */
+    int64_t joined;        /* when the first helper joined the job; 0: none has */
+    int64_t left[2];       /* when the last thread left the job, and the one before it */
     unsigned long job;
     void (*work)(void *, int);
     void *argument;
@@ -40,7 +41,8 @@ static struct {
           .done = PTHREAD_COND_INITIALIZER};
 
 static pthread_once_t fork_guard = PTHREAD_ONCE_INIT;
-static _Thread_local int owning; /* the pool */
+static _Thread_local int owning;          /* the pool */
+static _Thread_local int64_t together_ns; /* of the jobs that the thread has run */
 
 /* A fork does not wait for a running job, which may itself wait for the forking thread, or be that thread's own. */
 static void before_fork(void) { pthread_mutex_lock(&pool.lock); }
@@ -58,6 +60,14 @@ static void in_child(void) /* only the forking thread exists in the child */
 }
 
 static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
+
+/* The lock is held. */
+static void note_leaving(int64_t now)
+{
+    int last = now > pool.left[0];
+    pool.left[1] = last ? pool.left[0] : now > pool.left[1] ? now : pool.left[1];
+    pool.left[0] = last ? now : pool.left[0];
+}
 
 enum { WAKING_NS = 30000 }; /* about the time that a thread takes to wake up */
 
@@ -94,6 +104,7 @@ static void *helper(void *number)
     for (;;) {
         seen = await_job(worker, seen);
         pool.running++;
+        pool.joined = pool.joined ? pool.joined : e3d_now_ns();
         void (*work)(void *, int) = pool.work;
         void *argument = pool.argument;
         pthread_mutex_unlock(&pool.lock);
@@ -104,6 +115,7 @@ static void *helper(void *number)
         int64_t used = e3d_thread_ns() - began;
         pthread_mutex_lock(&pool.lock);
         pool.used += used;
+        note_leaving(e3d_now_ns());
         int last = --pool.running == 0 && !pool.wanted;
         if (last)
             pthread_cond_signal(&pool.done);
@@ -138,6 +150,7 @@ static int64_t await_helpers(void)
 {
     pthread_mutex_lock(&pool.lock);
     pool.wanted = 0;
+    note_leaving(e3d_now_ns());
     if (pool.running) {
         unsigned long job = pool.job;
         pthread_mutex_unlock(&pool.lock);
@@ -147,6 +160,8 @@ static int64_t await_helpers(void)
     while (pool.running)
         pthread_cond_wait(&pool.done, &pool.lock);
     int64_t used = pool.used;
+    if (pool.joined && pool.left[1] > pool.joined)
+        together_ns += pool.left[1] - pool.joined;
     pthread_mutex_unlock(&pool.lock);
     return used;
 }
@@ -159,7 +174,7 @@ static void post_job(int helpers, void (*work)(void *, int), void *argument)
     pool.wanted = helpers < pool.threads ? helpers : pool.threads;
     pool.work = work;
     pool.argument = argument;
-    pool.used = 0;
+    pool.used = pool.joined = pool.left[0] = pool.left[1] = 0;
     pthread_cond_broadcast(&pool.start);
     pthread_mutex_unlock(&pool.lock);
     atomic_store(&pool.posted, pool.job);
@@ -214,3 +229,5 @@ void e3d_pool_share(int threads, int tasks, void (*task)(void *, int), void *arg
     shared s = {.tasks = tasks, .task = task, .argument = argument};
     e3d_pool_run(threads < tasks ? threads : tasks, take_tasks, &s);
 }
+
+int64_t e3d_pool_together_ns(void) { return together_ns; }

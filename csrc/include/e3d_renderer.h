@@ -31,6 +31,7 @@ typedef struct e3d_stats {
     double ms_geometry;         /* wall clock of cull, transform, clip, setup and bin */
     double ms_raster, ms_shade, ms_resolve; /* sums over threads, divided by the number of threads */
     double ms_total;            /* wall clock */
+    double ms_alone;            /* of that, while fewer than two threads worked */
     int32_t threads, tiles, rounds;
     uint64_t plan;              /* the plan of the frame: e3d_plan_step() names its bits */
     e3d_backend backend;

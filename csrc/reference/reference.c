@@ -158,7 +158,7 @@ e3d_status e3d_reference_render(const e3d_frame *frame, const e3d_targets *targe
     status = draw_frame(&scene, targets);
     free_scene(&scene);
     e3d_fpenv_leave(environment);
-    scene.stats.ms_total = milliseconds() - start;
+    scene.stats.ms_total = scene.stats.ms_alone = milliseconds() - start;
     if (stats && status == E3D_OK)
         *stats = scene.stats;
     return status;

@@ -315,6 +315,7 @@ cdef class NativeStats:
             "ms_shade": stats.ms_shade,
             "ms_resolve": stats.ms_resolve,
             "ms_total": stats.ms_total,
+            "ms_alone": stats.ms_alone,
             "threads": stats.threads,
             "tiles": stats.tiles,
             "backend": e3d_backend_name(stats.backend).decode(),

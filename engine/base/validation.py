@@ -22,6 +22,7 @@ from ..errors import InvalidArgumentError
 from .calls import hinted, is_flag
 from .dirty_tracking import renew
 from .foreign_names import UnknownName, refuses_foreign_names
+from .near_words import meant
 from .numbers import floats, real, shown
 
 Given = TypeVar("Given")
@@ -140,7 +141,12 @@ def choose(value: Any, allowed: Any, what: str) -> Any:
     if is_one_of(value, allowed):
         return value
     choices = ", ".join(repr(choice) for choice in allowed)
-    raise InvalidArgumentError(f"{what} must be one of {choices}, not {shown(value)}")
+    hint = meant(value, filter(_is_text, allowed)) if _is_text(value) else ""
+    raise InvalidArgumentError(f"{what} must be one of {choices}, not {shown(value)}{hint}")
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str)
 
 
 def flag(value: bool, what: str) -> bool:

@@ -10,14 +10,13 @@ from __future__ import annotations
 import hashlib
 import os
 import threading
-import warnings
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 from weakref import WeakValueDictionary
 
 from ..base.calls import checks_types, shows_annotations
 from ..base.files.stamps import FileState
 from ..base.numbers import shown
-from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from ..errors import Engine3DError, InvalidArgumentError, warn
 from ..model.geometry.derived import arrays_of
 from ..model.geometry.mesh import Mesh
 from ..model.geometry.twins import take_over
@@ -149,7 +148,7 @@ class Resources:
             try:
                 fresh, states = _read(loaded.load, path, loaded.options)
             except Engine3DError as error:
-                warnings.warn(f"not loaded again: {error}", Engine3DWarning, stacklevel=2)
+                warn(f"not loaded again: {error}")
                 continue
             with self._lock:
                 self._forget_content(thing)

@@ -7,6 +7,7 @@ matrices (csrc/scene/view.c), in float64 and a fixed order of operations: the sa
 from __future__ import annotations
 
 import functools
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -72,6 +73,15 @@ class View:
             scaled /= float(linalg.length(middle))
             rows = [linalg.dot(world_from_view, row) for row in scaled]
         return np.ascontiguousarray(np.stack(rows), np.float32)
+
+    def pixels_at(self, depth: float) -> float:
+        """Return how many pixels a world unit spans at a metric depth, up and down or across."""
+        _, _, width, height = self._lens
+        most = max(abs(self.projection[0, 0]) * width, abs(self.projection[1, 1]) * height) / 2.0
+        most *= float(linalg.length(self.view_from_world[2, :3]))
+        if self.eye[3] == 0.0:
+            return float(most)
+        return float(most) / depth if depth > 0.0 else math.inf
 
     def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
         """Return whether the view still has this camera, pose and image."""

@@ -97,7 +97,8 @@ class Frame:
     outputs : tuple of str
         Names of the outputs it holds.
     stats : dict
-        Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), the
+        Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), of
+        all (``ms_total``), and of that while fewer than two threads worked (``ms_alone``); the
         number of threads and tiles, and the backend. ``plan`` names the code paths of the tiles
         (docs/plan.md lists them; none for the backend ``scalar``). ``nodes``, ``clusters`` and
         ``triangles`` count the whole scene; with the suffix ``_in_frustum``, ``_unoccluded`` or

@@ -7,12 +7,11 @@ up direction, and the file's counts and warnings.
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable
 from typing import Any, cast
 
 from ..choices import ColorLike
-from ..errors import Engine3DWarning, InvalidArgumentError, printable
+from ..errors import InvalidArgumentError, printable, warn
 from ..io.loaders import load_document, load_texture
 from ..io.reading.documents import Document
 from ..io.reading.sources import File
@@ -179,9 +178,9 @@ def has_materials(mesh: Mesh) -> bool:
 def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -> None:
     """Give the meshes' materials the image and the colour; warn of an image that does not show."""
     if image is not None and not meshes:
-        _warn("the model has materials of its own: it gets no other texture")
+        warn("the model has materials of its own: it gets no other texture")
     elif image is not None and all(mesh.uvs is None for mesh in meshes):
-        _warn("the model has no texture coordinates: the texture does not show")
+        warn("the model has no texture coordinates: the texture does not show")
     for material in (material for mesh in meshes for material in mesh.materials):
         if image is not None:
             material.texture = image
@@ -201,16 +200,12 @@ def dress_scene(scene: Scene, color: ColorLike) -> None:
             mesh.colors = None
         painted = painted or bool(plain)
     if not painted:
-        _warn("all that the scene holds has textures or glows: it gets no other colour")
+        warn("all that the scene holds has textures or glows: it gets no other colour")
 
 
 def _is_plain(material: Material) -> bool:
     """Return whether a material shows only a plain colour."""
     return not textures_of(material) and not any(material.emissive)
-
-
-def _warn(message: str) -> None:
-    warnings.warn(message, Engine3DWarning, stacklevel=4)
 
 
 def document_lines(document: Document) -> list[str]:

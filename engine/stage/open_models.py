@@ -5,14 +5,13 @@ In: paths. Out: a scene with all models, placed as in their files or side by sid
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..base import linalg
-from ..errors import Engine3DWarning
+from ..errors import warn
 from ..io.reading.documents import Document
 from ..io.reading.sources import File
 from ..model.geometry.mesh import Mesh
@@ -134,7 +133,7 @@ def _own_places(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:
     first = viewed_scenes[0]
     for viewed in viewed_scenes[1:]:
         if viewed.up != first.up:
-            _warn(
+            warn(
                 f"{viewed.title} counts {viewed.up} as up, {first.title} {first.up}: both keep "
                 "their coordinates (--side-by-side stands them upright)"
             )
@@ -178,11 +177,7 @@ def _compare_sizes(
     sizes = [float((high - low).max()) for low, high in boxes]
     small, large = sizes.index(min(sizes)), sizes.index(max(sizes))
     if sizes[large] > ALIKE * sizes[small]:
-        _warn(
+        warn(
             f"{viewed_scenes[large].title} is more than {ALIKE:g} times as large as "
             f"{viewed_scenes[small].title}: side by side, that one hardly shows"
         )
-
-
-def _warn(message: str) -> None:
-    warnings.warn(message, Engine3DWarning, stacklevel=4)

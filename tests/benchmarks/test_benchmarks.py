@@ -171,6 +171,13 @@ def test_overhead():
     assert all(row["milliseconds"] > 0 for row in figures["starts"])
 
 
+def test_small_frames():
+    figures = report("small_frames.py", "--frames", "2", "--scenes", "2")
+    assert [row["size"] for row in figures["rows"]] == [84, 128, 256]
+    assert all(row["none"] > 0 and row["map"] > 0 for row in figures["rows"])
+    assert all(value > 0 for value in figures["scenes"].values())
+
+
 def test_lights(tmp_path):
     chart = tmp_path / "lights.svg"
     small = ["--triangles", "50000", "--most", "4", "--frames", "1", "--size", "64x36"]

@@ -194,3 +194,18 @@ def test_in_frustum_does_not_depend_on_what_is_hidden(threads):
                     assert (found[:, 1] == expected).all()
             assert (found[:, 2] < found[:, 0]).all()
     assert 0 < expected[1] < found[1, 0]
+
+
+@pytest.mark.parametrize("threads", [1, 2, 4])
+def test_the_time_in_which_one_thread_works_alone(threads):
+    """It is all of the time with one thread; with several, sooner or later, others help."""
+    scene = e3d.Scene()
+    scene.add(e3d.icosphere(1.0, 5))
+    camera = e3d.PerspectiveCamera(0.8), e3d.look_at((0, 0, 3), (0, 0, 0))
+    with Renderer((256, 256), threads=threads) as renderer:
+        for _ in range(20 if threads == 1 else 3000):
+            stats = renderer.render(scene, camera).stats
+            assert 0.0 <= stats["ms_alone"] <= stats["ms_total"]
+            if stats["ms_alone"] < stats["ms_total"]:
+                break
+    assert (stats["ms_alone"] < stats["ms_total"]) == (threads > 1)

@@ -101,6 +101,7 @@ MISTAKES = [
     (assign(node, "visible", "no"), "visible must be True or False, not 'no'"),
     (lambda: e3d.Material(two_sided="yes"), "two_sided must be True or False"),
     (lambda: e3d.Material(color="tab:blue"), "nor the name of a colour"),
+    (lambda: e3d.Material(color="Oragne"), "did you mean orange?"),
     (lambda: e3d.Texture("brick.png"), "load_texture"),
     (lambda: e3d.load_mesh(5), "not a path"),
     (lambda: e3d.save_scene(mesh(), "a.glb"), "scene must be a Scene"),

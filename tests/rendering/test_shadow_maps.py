@@ -269,6 +269,42 @@ def test_the_ranges_of_kept_maps_change_no_pixel(kind):
                 assert all(found) or frame == 0
 
 
+# What maps are drawn, and how fine
+
+
+def sides_and_number(size, camera, **options):
+    """The side of a light's maps in a picture of the far stage, and how many there are."""
+    scene, light = far_stage()
+    for name, value in {"shadow_map_size": 2048, **options}.items():
+        setattr(light, name, value)
+    with Renderer(size) as renderer:
+        renderer.render(scene, camera)
+        depths = shadow_maps(renderer)._kept[0].depths
+    return depths.shape[1], len(depths)
+
+
+def test_maps_are_as_fine_as_the_picture():
+    lens = e3d.PerspectiveCamera(0.9, znear=0.1, zfar=500.0)
+    camera = lens, e3d.look_at((0, 2, 8), (0, 1, 0))
+    small, large = (sides_and_number(size, camera)[0] for size in ((64, 48), (512, 384)))
+    assert 48 <= small <= 256 and 4 * small <= large <= 1024
+    assert sides_and_number((64, 48), camera, shadow_map_size=96)[0] == 96
+    assert sides_and_number((64, 48), camera, shadow_cascades=1) == (2048, 1)
+    for eye in ((0, 2, 30), (3, 40, 8), (0, 2, 600)):
+        assert sides_and_number((64, 48), (lens, e3d.look_at(eye, (0, 1, 0))))[0] == small
+    flat = e3d.OrthographicCamera(5.0, znear=0.1, zfar=500.0), camera[1]
+    assert sides_and_number((64, 48), flat, shadow_cascades=1)[0] == 2048
+    wide = e3d.OrthographicCamera(400.0, znear=0.1, zfar=500.0), camera[1]
+    assert sides_and_number((64, 48), wide)[0] < 128
+
+
+def test_parts_of_the_view_without_anything_have_no_map():
+    """The floor is 566 across: parts of the view end at 9, 35 and 141."""
+    lens = e3d.PerspectiveCamera(0.9, znear=0.1, zfar=2000.0)
+    for eye, number in (((0, 2, 8), 4), ((0, 2, 0.1), 2), ((0, 80, 0.1), 2), ((0, 300, 0.1), 1)):
+        assert sides_and_number((64, 48), (lens, e3d.look_at(eye, (0, 1, 0))))[1] == number
+
+
 # Edges stay in place
 
 
@@ -296,7 +332,8 @@ def maps_of(renderer, scene, camera, pose):
     towards, _ = renderer._painter.draw_list.lights.placed()[0][2]
     light = renderer._painter.draw_list.lights.placed()[0][1]
     view = renderer._viewpoint.look(scene, (camera, pose), renderer.width, renderer.height)
-    views = _shadow_views.VIEWS["cascades"](light, (towards, None), scene.bounds, view)
+    sight = _shadow_views.sight_of(view, scene.bounds, light.shadow_cascades)
+    views = _shadow_views.VIEWS["cascades"](light, (towards, None), scene.bounds, sight)
     return kept.depths.copy(), views
 
 
@@ -317,7 +354,7 @@ def test_a_camera_that_moves_and_turns_moves_no_texel():
                 right, down = (b - a for a, b in zip((x, y), new.places[k][1:], strict=True))
                 assert right == int(right) and down == int(down)
                 moved += (right, down) != (0, 0)
-                shifted, size = np.full_like(before[k], np.nan), 256
+                shifted, size = np.full_like(before[k], np.nan), new.size
                 rows = slice(max(0, int(down)), min(size, size + int(down)))
                 columns = slice(max(0, int(right)), min(size, size + int(right)))
                 from_rows = slice(rows.start - int(down), rows.stop - int(down))

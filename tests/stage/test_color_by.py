@@ -9,6 +9,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.apps.cli import main
 from engine3d.errors import InvalidArgumentError
+from engine3d.rendering.canvas import text_size
 from engine3d.stage.overlays.colormaps import MISSING, SIZE, colormap
 from engine3d.stage.overlays.numbers import take_marks
 from engine3d.stage.stage_settings import Settings
@@ -120,6 +121,7 @@ def test_colour_maps():
     table = np.linspace(0, 255, 3 * SIZE).astype(np.uint8).reshape(SIZE, 3)
     assert (colormap(table) == table).all()
     assert (colormap(table / 255) == table).all()
+    assert colormap(["navy", "#f80", "White"]).tolist() == [[0, 0, 128], [255, 136, 0], [255] * 3]
     assert (colormap(lambda places: np.stack([places] * 4, axis=1))[[0, -1]] == [[0], [255]]).all()
     for wrong in (np.zeros(3), np.zeros((1, 3)), np.full((4, 3), 2.0), np.zeros((4, 3), int)):
         with pytest.raises(InvalidArgumentError, match="colormap"):
@@ -136,7 +138,10 @@ def test_colour_maps():
         ({"color_by": "heat", "clim": (1, 1)}, "clim must be two finite numbers"),
         ({"color_by": "heat", "clim": 3}, "clim must be two numbers"),
         ({"color_by": "heat", "component": -3}, "component must be a whole number"),
-        ({"color_by": "heat", "colormap": "jet"}, "'jet' is neither a picture nor one of viridis"),
+        (
+            {"color_by": "heat", "colormap": "jet"},
+            "colormap 'jet' is neither a picture nor one of virid",
+        ),
         ({"color_by": "heat", "bar": "yes"}, "bar must be"),
     ],
 )
@@ -167,3 +172,19 @@ def test_what_show_draws():
         assert np.array_equal(frame.color, expected.color)
         view_renderer.visibility.toggle_material(0)  # nothing is left
         assert (view_renderer.draw(view, outputs=("color", "object_id")).object_id == -1).all()
+
+
+def test_letters_beside_a_small_picture_with_a_bar_are_whole(monkeypatch):
+    """The names of the axes stay in the picture, and the bar covers no letter."""
+    ring, written, text = e3d.torus(1.0, 0.4), {}, e3d.Canvas.text
+    ring.values["height"] = ring.positions[:, 1] * 1234.5
+
+    def note(canvas, x, y, what, *more, **options):
+        written[what] = x, y
+        text(canvas, x, y, what, *more, **options)
+
+    monkeypatch.setattr(e3d.Canvas, "text", note)
+    e3d.render(ring, size=(200, 150), color_by="height", bar=True, axes_grid=True)
+    (left, _), (_, top), (_, numbers) = written["Y"], written["X"], written["1000"]
+    colors = numbers - 12  # in the block of the bar, above its numbers
+    assert left >= 0 and top + text_size("X")[1] < colors

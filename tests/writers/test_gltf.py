@@ -281,3 +281,16 @@ def test_extras_that_json_does_not_hold_are_left_out(extension, odd, tmp_path):
     assert b"Infinity" not in path.read_bytes() and b"NaN" not in path.read_bytes()
     (read,) = [node.object for node in e3d.load_scene(path).nodes if node.object is not None]
     assert [material.extras for material in read.materials] == [{}, {"a": 1.5}]
+
+
+def test_clips_keep_the_names_under_which_a_scene_holds_them(tmp_path):
+    scene = e3d.Scene()
+    node = scene.add(e3d.box(), name="box")
+    keys = [0, 1], [(0, 0, 0), (0, 1, 0)]
+    one, other = (
+        e3d.motion.AnimationClip([e3d.motion.Channel(node, "translation", *keys)], name)
+        for name in ("", "run")
+    )
+    scene.animations = {"hop": one, "walk": other}
+    e3d.save_scene(scene, tmp_path / "a.glb")
+    assert list(e3d.load(tmp_path / "a.glb").animations) == ["hop", "walk"]

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/fpenv.h"
+#include "base/pool.h"
 #include "data/mirrors.h"
 #include "data/shadows.h"
 #include "data/sample_patterns.h"
@@ -68,7 +69,7 @@ static e3d_status draw(const e3d_context *context, e3d_stats *stats)
 
 static e3d_status run(e3d_renderer *renderer, const e3d_pass *asked, e3d_stats *stats)
 {
-    int64_t start = e3d_now_ns();
+    int64_t start = e3d_now_ns(), together = e3d_pool_together_ns();
     e3d_context context;
     e3d_status status = e3d_prepare(renderer, asked, &context);
     if (status != E3D_OK)
@@ -83,6 +84,7 @@ static e3d_status run(e3d_renderer *renderer, const e3d_pass *asked, e3d_stats *
     if (stats->rounds > 1)
         e3d_history_judge(context.history, stats);
     stats->ms_total = (double)(e3d_now_ns() - start) * 1e-6;
+    stats->ms_alone = stats->ms_total - (double)(e3d_pool_together_ns() - together) * 1e-6;
     return status;
 }
 
@@ -119,6 +121,7 @@ static e3d_status run_outputs(e3d_renderer *renderer, const e3d_pass *asked, e3d
 static void add_times(const e3d_stats *of, e3d_stats *to)
 {
     to->ms_total += of->ms_total;
+    to->ms_alone += of->ms_alone;
     to->ms_geometry += of->ms_geometry;
     to->ms_raster += of->ms_raster;
     to->ms_shade += of->ms_shade;

@@ -7,12 +7,11 @@ of the command with the same options.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from typing import Any
 
 from ...choices import Backend
-from ...errors import Engine3DWarning
+from ...errors import warn
 from ...rendering.frame import Frame
 from ...stage.blank import Reason
 from ...stage.look import LookChoice
@@ -43,7 +42,7 @@ def draw_look(
     """
     viewed = open_models([task.path(task.model)], companion=companion, root=task.root_path)
     for text in viewed.warnings:
-        warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
+        warn(f"{task.model}: {text}")
     with ViewRenderer(
         viewed,
         settings_for(look),

@@ -6,16 +6,13 @@ In: arguments. Out: argparse's result, or a line on standard error and exit stat
 from __future__ import annotations
 
 import argparse
-import difflib
 import os
 import re
-from collections.abc import Iterable
 
+from ...base.near_words import meant
 from ...errors import printable
 from .options.appearance_options import WIREFRAMES
 
-#: Minimum similarity of two words, 0 to 1, for a letter-by-letter comparison.
-_LIKENESS = 0.6
 #: Options whose value may start with a minus sign, which argparse would take for an option.
 SIGNED_OPTIONS = frozenset(
     {
@@ -108,23 +105,6 @@ def option_meant(word: str, parser: argparse.ArgumentParser) -> str:
     known = option_strings(parser)
     named = [option for option in _ELSEWHERE.get(word, ()) if option in known]
     return f": did you mean {named[0]}?" if named else meant(word, known)
-
-
-def meant(word: str, known: Iterable[str]) -> str:
-    """Return the end of a message that suggests a known word, or ``""``."""
-    similar = difflib.get_close_matches(word, list(known), 3, _LIKENESS)
-    close = [one for one in similar if _is_close(word, one)]
-    return f": did you mean {close[0]}?" if close else ""
-
-
-def _is_close(word: str, known: str) -> bool:
-    """Return whether a word is a prefix of a known one, or shares two thirds of its letters.
-
-    Similarity alone would match ``nonsense`` with ``scene``: they share four letters of eight.
-    """
-    blocks = difflib.SequenceMatcher(None, word, known).get_matching_blocks()
-    shared = sum(block.size for block in blocks)
-    return known.startswith(word) or 3 * shared >= 2 * max(len(word), len(known))
 
 
 def option_strings(parser: argparse.ArgumentParser) -> list[str]:

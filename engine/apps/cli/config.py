@@ -12,9 +12,9 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
+from ...base.near_words import meant
 from ...errors import FileFormatError
 from ..desktop.user_folders import user_path
-from .arguments import meant
 from .options.scene_options import OF_MODELS
 from .short_help import WHOLE
 from .usage import UsageError

@@ -96,6 +96,8 @@ index = _whole(-1)
 component = _whole(-2)
 whole = _whole(0)
 count = _whole(1)
+#: Pictures of a series.
+picture_count = _whole(1, 100_000)
 #: Maximum anisotropy of textures.
 anisotropy = _whole(1, MAX_ANISOTROPY)
 ui_scale = _whole(1, MAX_UI_SCALE)
@@ -200,11 +202,12 @@ def color(text: str) -> tuple[int, int, int]:
         red, green, blue = (int(value * scale + 0.5) for value in values)
         return red, green, blue
     from ...errors import InvalidArgumentError
-    from ...model.materials.color_names import color_of_word
+    from ...model.materials.color_names import color_meant, color_of_word
 
     try:
         red, green, blue = map(int, color_of_word(text)[:3])
     except InvalidArgumentError:
         message = f"{text!r} is neither R,G,B nor #rrggbb nor the name of a colour"
+        message += color_meant(text)
         raise argparse.ArgumentTypeError(message) from None
     return red, green, blue

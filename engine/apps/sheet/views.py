@@ -198,6 +198,8 @@ def parse_section(text: str) -> Section:
         return Section(axis, not match[1], 0.5, True)
     place = _number(match[3], f"section: {text}")
     is_share = bool(match[4])
+    if is_share and not 0.0 <= place <= 100.0:
+        raise InvalidArgumentError(f"section: {text!r} is beyond the model: 0% to 100%")
     return Section(axis, not match[1], place / 100.0 if is_share else place, is_share)
 
 

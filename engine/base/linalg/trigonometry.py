@@ -10,6 +10,7 @@ values, then its series.
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import overload
 
@@ -29,6 +30,7 @@ _HALF_PI_MIDDLE = float.fromhex("0x1.0b4611a6p-34")
 _HALF_PI_LOW = float.fromhex("0x1.3198a2e037073p-69")
 _REDUCTION_LIMIT = 2.0**20
 _MOST_POINTS = 2**24  # of a circle
+_MOST_KEPT = 2**10  # points of a polygon that is computed once
 
 # Coefficients of x**3, x**5, ... and of x**4, x**6, ...; the first omitted term is below 2**-60.
 _SINE_TERMS = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9))
@@ -240,14 +242,23 @@ def unit_circle(count: int) -> tuple[FloatArray, FloatArray]:
         Cosines and sines.
     """
     count = whole_number(count, "count", 1, _MOST_POINTS)
+    x, y = (_kept_polygon if count <= _MOST_KEPT else _polygon)(count)
+    return x.copy(), y.copy()
+
+
+def _polygon(count: int) -> tuple[FloatArray, FloatArray]:
+    """Return what `unit_circle` does."""
     eighths = 8 * np.arange(count)  # the angle in units of 1/count of an octant
     octant, position = np.divmod(eighths, count)
     folded = np.where(octant % 2 == 1, count - position, position)
     sine, cosine = _sine_cosine(folded * (math.pi / 4.0) / count)
-    steep = np.isin(octant, (1, 2, 5, 6))  # nearer to the Y axis than to the X axis
+    steep = (octant + 1) & 2 != 0  # octants 1, 2, 5, 6 are nearer to the Y axis than to the X axis
     x = np.where(steep, sine, cosine)
     y = np.where(steep, cosine, sine)
     # The end of an octant is at 45 degrees, where the two series differ by one ulp.
     diagonal = folded == count
     x, y = (np.where(diagonal, math.sqrt(0.5), values) for values in (x, y))
-    return np.where(np.isin(octant, (2, 3, 4, 5)), -x, x) + 0.0, np.where(octant >= 4, -y, y) + 0.0
+    return np.where((octant + 2) & 4 != 0, -x, x) + 0.0, np.where(octant >= 4, -y, y) + 0.0
+
+
+_kept_polygon = functools.lru_cache(maxsize=64)(_polygon)

@@ -12,14 +12,13 @@ import os
 import shutil
 import subprocess
 import tempfile
-import warnings
 from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from ...base.files.atomic_write import atomic_write
-from ...errors import Engine3DWarning, FileAccessError, printable
+from ...errors import FileAccessError, printable, warn
 from ...rendering.transparency import refuse_transparency
 
 #: Constant quality of x264: 18 is visually almost lossless.
@@ -75,7 +74,7 @@ def save_video(pictures: Iterable[np.ndarray], path: Any, seconds_a_frame: float
     even = width + width % 2, height + height % 2
     if even != (width, height):
         message = f"MP4 has even sides: {width}x{height} became {even[0]}x{even[1]}"
-        warnings.warn(message, Engine3DWarning, stacklevel=3)
+        warn(message)
     with atomic_write(path) as file, tempfile.TemporaryDirectory() as folder:
         temporary = os.path.join(folder, "video.mp4")
         command = [program, *_arguments(even, seconds_a_frame), temporary]

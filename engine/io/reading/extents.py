@@ -1,7 +1,8 @@
-"""Detects models too far from the origin to be drawn precisely.
+"""Detects coordinates that cannot be drawn, or not precisely.
 
-In: a `Document` of any reader. Out: a warning if its meshes, with 32-bit coordinates, are too far.
-Distances held by objects' poses do not matter.
+In: a `Document` of any reader. Out: warnings if vertices of its meshes have coordinates that are
+not finite, or are too far from the origin for 32-bit coordinates. Distances held by objects' poses
+do not matter.
 """
 
 from __future__ import annotations
@@ -20,7 +21,28 @@ _COARSEST = 2.0**-12
 
 
 def extent_warnings(document: Document) -> list[str]:
-    """Return the warnings about the size and position of a document's meshes."""
+    """Return the warnings about the coordinates of a document's meshes."""
+    return _broken(document) + _coarse(document)
+
+
+def _broken(document: Document) -> list[str]:
+    meshes = {id(one.mesh): one.mesh.positions for one in document.objects}.values()
+    broken = sum(_count_broken(positions) for positions in meshes)
+    if not broken:
+        return []
+    return [
+        f"{broken} of {sum(map(len, meshes))} vertices have coordinates that are not finite: what "
+        "uses them is not drawn"
+    ]
+
+
+def _count_broken(positions: np.ndarray) -> int:
+    if np.isfinite(np.add.reduce(positions.reshape(-1))):
+        return 0
+    return int((~np.isfinite(positions)).any(axis=1).sum())
+
+
+def _coarse(document: Document) -> list[str]:
     boxed = [one for one in document.objects if one.pose is None and _is_box(one.mesh)]
     if not boxed:
         return []

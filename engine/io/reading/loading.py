@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import warnings
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -13,7 +12,7 @@ import numpy as np
 
 from ...base.calls import checks_types
 from ...base.validation import flag
-from ...errors import Engine3DWarning, FileFormatError, InvalidArgumentError
+from ...errors import FileFormatError, InvalidArgumentError, warn
 from ...model.geometry.creases import CREASE_ANGLE, check_crease_angle
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, remember_origin
@@ -233,7 +232,7 @@ def _read_document(
         source = source._replace(progress=progress)
     document = document_of(source, format, split=split)
     for message in document.warnings:
-        warnings.warn(message, Engine3DWarning, stacklevel=3)
+        warn(message)
     return document
 
 

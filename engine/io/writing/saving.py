@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import warnings
 from typing import Any, BinaryIO
 
 from ...base.calls import checks_types
 from ...base.files.atomic_write import AtomicFiles, StreamFiles, checked_path
-from ...errors import Engine3DWarning, InvalidArgumentError, located
+from ...errors import InvalidArgumentError, located, warn
 from ...model.geometry.mesh import Mesh
 from .writer_registry import find_writer
 
@@ -57,4 +56,4 @@ def save_mesh(
     with StreamFiles(target) if is_stream else AtomicFiles() as files:
         told = writer.write(mesh, name, files, **options)
     for message in told:
-        warnings.warn(located(message, name), Engine3DWarning, stacklevel=2)
+        warn(located(message, name))

@@ -107,7 +107,7 @@ class _Making:
         meshes = tuple(self._lists["meshes"])
         materials = _materials_of(meshes)
         self._material_rows = {key: row for row, key in enumerate(materials)}
-        clips = tuple(self._clip(clip) for clip in scene.animations.values())
+        clips = tuple(self._clip(*named) for named in scene.animations.items())
         return TreeRecord(
             nodes=made,
             roots=tuple(self._row[node] for node in nodes if node.parent is None),
@@ -257,19 +257,19 @@ class _Making:
             skin.name, joints, skin.inverse_binds, extras=None if came is None else came.extras
         )
 
-    def _clip(self, clip: AnimationClip) -> ClipRecord:
+    def _clip(self, name: str, clip: AnimationClip) -> ClipRecord:
         channels, properties = [], []
         seen = set()
         for channel in clip.channels:
             if isinstance(channel, PropertyChannel):
-                properties += self._property(channel, clip.name)
+                properties += self._property(channel, name)
                 continue
             node = self._folded.get(channel.node, channel.node)
             # Each part of a mesh has a weights channel, but a file has one for all.
             if node not in self._row or (node, channel.path) in seen:
                 continue
             if channel.path == "weights" and channel.values.shape[-1] != _targets_of(node):
-                self.told.append(f"animation {shown(clip.name)}: weights of what is not written")
+                self.told.append(f"animation {shown(name)}: weights of what is not written")
                 continue
             seen.add((node, channel.path))
             channels.append(
@@ -283,7 +283,7 @@ class _Making:
             )
         came = records.get(clip)
         extras = None if came is None else came.extras
-        return ClipRecord(clip.name, clip.duration, tuple(channels), extras, tuple(properties))
+        return ClipRecord(name, clip.duration, tuple(channels), extras, tuple(properties))
 
     def _property(self, channel: PropertyChannel, clip: str) -> list[PropertyRecord]:
         """Return the record of an animated property; None, with a warning, if not possible."""

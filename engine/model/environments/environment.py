@@ -211,6 +211,8 @@ def _checked(pixels: ArrayLike) -> NDArray[np.float32]:
         raise InvalidArgumentError(
             f"an environment's sides must be in 1..{MAX_SIDE}, got {width}x{height}"
         )
+    if not np.isfinite(array).all():
+        raise InvalidArgumentError("an environment's pixels must be finite")
     if is_frozen(array) and array.flags.c_contiguous:
         return array
     return frozen(np.array(array, order="C"))

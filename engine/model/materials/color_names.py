@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ...base.near_words import meant
 from ...errors import InvalidArgumentError
 
 
@@ -37,6 +38,14 @@ def color_of_word(word: str, what: str = "color") -> tuple[Any, ...]:
     except ValueError:
         raise InvalidArgumentError(
             f"{what}: {word!r} is neither #rrggbb nor the name of a colour of CSS"
+            + color_meant(word)
         ) from None
     # Python's integers that are all 0 or 1 would mean 0.0 and 1.0.
     return codes if max(codes) > 1 else tuple(map(np.uint8, codes))
+
+
+def color_meant(word: str) -> str:
+    """Return the end of a message that suggests the name of a colour, or ``""``."""
+    from PIL import ImageColor
+
+    return meant(word.strip().lower(), ImageColor.colormap)

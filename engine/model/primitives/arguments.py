@@ -72,13 +72,13 @@ def segment_pair(name: str, values: Any, least: tuple[int, int]) -> tuple[int, i
 
 def names_itself(make: Callable[Parameters, Mesh]) -> Callable[Parameters, Mesh]:
     """Let a function's meshes know by which arguments it makes them, as scene files say."""
-
     hinting = hinted(make)
+    signature = functools.cache(lambda: inspect.signature(make))
 
     @functools.wraps(make)
     def named(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Mesh:
         mesh = hinting(*args, **kwargs)
-        given = inspect.signature(make).bind(*args, **kwargs).arguments
+        given = signature().bind(*args, **kwargs).arguments
         plain = {name: np.asarray(value).tolist() for name, value in given.items()}
         remember_origin(mesh, PrimitiveOrigin(make.__name__, plain))
         return mesh

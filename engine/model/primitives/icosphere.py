@@ -6,6 +6,7 @@ coordinates: vertices on the seam and at the poles are there once for each side 
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -20,6 +21,7 @@ IntArray = npt.NDArray[np.intp]
 
 # 20 * 4**9 triangles are 5 million.
 MAX_SUBDIVISIONS = 9
+_MOST_KEPT = 5  # subdivisions of unit spheres that are computed once
 
 
 @names_itself
@@ -46,8 +48,24 @@ def icosphere(radius: float = 0.5, subdivisions: int = 3) -> Mesh:
         If the radius isn't finite and greater than 0, or `subdivisions` is out of range.
     """
     radius = positive("radius", radius)
+    count = integer("subdivisions", subdivisions, 0, MAX_SUBDIVISIONS)
+    normals, faces, uvs, point_ids = (_kept_sphere if count <= _MOST_KEPT else _sphere)(count)
+    return Mesh(
+        normals * radius,
+        faces,
+        normals=normals,
+        uvs=uvs,
+        position_ids=point_ids,
+        name="icosphere",
+    )
+
+
+def _sphere(
+    subdivisions: int,
+) -> tuple[FloatArray, npt.NDArray[np.int32], FloatArray, IntArray]:
+    """Return the vertices of the unit sphere, its faces, texture coordinates, and point IDs."""
     points, faces = _icosahedron()
-    for _ in range(integer("subdivisions", subdivisions, 0, MAX_SUBDIVISIONS)):
+    for _ in range(subdivisions):
         points, faces = _subdivide(points, faces)
     corner_uvs = _corner_uvs(points, faces)
     # A vertex is a point together with its texture coordinates.
@@ -55,14 +73,15 @@ def icosphere(radius: float = 0.5, subdivisions: int = 3) -> Mesh:
     vertices, index = np.unique(corners, axis=0, return_inverse=True)
     point_ids = vertices[:, 0].astype(np.intp)
     normals = points[point_ids]
-    return Mesh(
-        normals * radius,
+    return (
+        normals,
         index.reshape(-1, 3).astype(np.int32),
-        normals=normals,
-        uvs=vertices[:, 1:],
-        position_ids=point_ids,
-        name="icosphere",
+        vertices[:, 1:].astype(np.float64),
+        point_ids,
     )
+
+
+_kept_sphere = functools.cache(_sphere)
 
 
 def _icosahedron() -> tuple[FloatArray, IntArray]:

@@ -90,7 +90,8 @@ class DirectionalLight(DirectLight):
         bias or other parameter to choose; up to 32 lights. Each node can disable casting and
         receiving shadows.
     shadow_map_size : int
-        Texels a side, 32 to 8192, of each map.
+        The most texels a side, 32 to 8192, of each map. Small pictures get smaller maps, whose
+        texels are as wide as pixels where the maps serve the farthest.
     shadow_bias : float
         Depth bias, added before the comparison, in units of the map's depth range.
     shadow_normal_bias : float

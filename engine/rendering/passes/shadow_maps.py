@@ -13,16 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._native.rasterizer import CULLS, LIGHT_TRAITS, find_shadow_ranges, shadow_ranges_side
-from ...model.scene.lights import DirectLight
+from ...model.scene.lights import DirectionalLight, DirectLight
 from ...model.scene.staged_data import NodeRows
 from .._memo import Memo
-from .._view import View
 from ..casters import placed_casters
 from ..draw_list.lamps import lamp_slots
 from ..draw_list.light_list import Where
 from ..options import RenderOptions, shows_light
 from .protocol import Pass, Picture, Tools
-from .shadow_views import VIEWS, MapView, ShadowViews
+from .shadow_views import VIEWS, MapView, ShadowViews, Sight, sight_of
 
 #: The scene's nodes, their changes, the list's renewals, the culled side, and the spared slots.
 Moment: TypeAlias = tuple[NodeRows, object, int, int, tuple[int, ...]]
@@ -83,6 +82,8 @@ class ShadowMaps(Pass):
         self._kept: dict[int, _LightMaps] = {}
         # By light number: the views of its maps, and the inputs they were computed from.
         self._found: dict[int, tuple[tuple[object, ...], ShadowViews | None]] = {}
+        # By number of cascades: the camera's view in slices, and the inputs it was cut from.
+        self._cut: dict[int, tuple[tuple[object, ...], Sight]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
         return options.mode == "lit" and shows_light(wanted)
@@ -99,18 +100,16 @@ class ShadowMaps(Pass):
         for known in (self._kept, self._found):
             for number in known.keys() - {number for number, _, _ in lights}:
                 del known[number]
-        bounds = scene.bounds
         cull = CULLS[picture.shadow_cull]
         arrays = scene.data.arrays
         moment = arrays, arrays.updated, draw_list.renewals, cull
         seen = [
             (number, light, pose, views)
             for number, light, pose in lights
-            if (views := self._views_of(number, light, pose, bounds, picture.view)) is not None
+            if (views := self._views_of(number, light, pose, picture)) is not None
         ]
         self.tools.memory.add_maps(
-            (type(light).__name__, len(views.maps), light.shadow_map_size)
-            for _, light, _, views in seen
+            (type(light).__name__, len(views.maps), views.size) for _, light, _, views in seen
         )
         for number, light, (_, place), views in seen:
             slot = draw_list.lights.slot_of(number)
@@ -119,22 +118,43 @@ class ShadowMaps(Pass):
         picture.shadow_maps = self._count, self._drawn
 
     def _views_of(
-        self, number: int, light: DirectLight, pose: Where, bounds: NDArray[np.float64], view: View
+        self, number: int, light: DirectLight, pose: Where, picture: Picture
     ) -> ShadowViews | None:
         """Return the views of a light's maps; reused if no input changed."""
-        layout = LIGHT_TRAITS[light.kind].maps
-        seen_by = view if layout == "cascades" else None
+        bounds, layout = picture.scene.bounds, LIGHT_TRAITS[light.kind].maps
+        sight: Sight | None = None
+        seen_by: tuple[object, ...] = ()
+        if isinstance(light, DirectionalLight):
+            sight = self._sight_of(light.shadow_cascades, picture)
+            seen_by = picture.view, *(one.end for one in sight.slices)
         found_from = light, light.version, pose, bounds.tobytes(), seen_by
         known = self._found.get(number)
         if known is None or known[0] != found_from:
             light.check()
-            known = self._found[number] = found_from, VIEWS[layout](light, pose, bounds, view)
+            known = self._found[number] = found_from, VIEWS[layout](light, pose, bounds, sight)
         return known[1]
+
+    def _sight_of(self, cascades: int, picture: Picture) -> Sight:
+        """Return the slices of the camera's view in which something is."""
+        view, bounds = picture.view, picture.scene.bounds
+        cut_from = view, bounds.tobytes()
+        known = self._cut.get(cascades)
+        if known is None or known[0] != cut_from:
+            known = self._cut[cascades] = cut_from, sight_of(view, bounds, cascades)
+        arrays = picture.scene.data.arrays
+        boxes = arrays.columns["bounds"][: arrays.count]
+        low, high = boxes[:, :3], boxes[:, 3:6]
+        shown = [
+            one
+            for one in known[1].slices
+            if ((low <= one.box[1]) & (high >= one.box[0])).all(axis=1).any()
+        ]
+        return known[1]._replace(slices=shown)
 
     def _update_light(
         self, number: int, light: DirectLight, views: ShadowViews, moment: Moment
     ) -> None:
-        count, size = len(views.maps), light.shadow_map_size
+        count, size = len(views.maps), views.size
         kept = self._kept.get(number)
         if kept is None or not kept.fits(count, size):
             kept = self._kept[number] = _LightMaps(count, size)

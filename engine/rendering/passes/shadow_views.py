@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...base import linalg
 from ...base.linalg.single import cross, length, normalize
 from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
-from ...model.scene.shadow_casting import shadow_margin
+from ...model.scene.shadow_casting import LEAST_MAP, MOST_MAP, shadow_margin
 from .._view import View
 
 _RATIO = 4.0  # each cascade reaches this many times as far as the one before
@@ -60,6 +60,8 @@ class ShadowViews(NamedTuple):
         Right, down and ahead; for point lights the world's, which are not read.
     depth : (float, float)
     margin : int
+    size : int
+        Texels a side.
     """
 
     maps: list[MapView]
@@ -67,6 +69,7 @@ class ShadowViews(NamedTuple):
     axes: Axes
     depth: tuple[float, float]
     margin: int
+    size: int
 
 
 def _single(value: float) -> float:
@@ -134,10 +137,49 @@ def _square(side: float, middle: tuple[float, float], inside: int, play: float) 
     return _Square(scale, column, row)
 
 
-def _slices(
-    view: View, bounds: NDArray[np.float64], count: int
-) -> list[tuple[float, tuple[float, ...]]]:
-    """Return spheres around the camera's view from depth to depth: side of the square, and centre.
+class Slice(NamedTuple):
+    """A part of the camera's view, between two depths.
+
+    Attributes
+    ----------
+    end : float
+        The farther depth.
+    side : float
+        Of a square around its sphere.
+    middle : tuple of 3 float
+        The sphere's centre.
+    box : (2, 3) float64
+        Its least and greatest world coordinates.
+    """
+
+    end: float
+    side: float
+    middle: tuple[float, ...]
+    box: NDArray[np.float64]
+
+
+class Sight(NamedTuple):
+    """What the camera sees.
+
+    Attributes
+    ----------
+    view : View
+    slices : list of Slice
+        Those in which something is, the nearest first.
+    texels : float
+        As many texels in a row show the last slice, if they are as wide as pixels at its end.
+    beyond : float
+        The depth up to which the map of the scene has to show as much; 0 for any depth.
+    """
+
+    view: View
+    slices: list[Slice]
+    texels: float
+    beyond: float
+
+
+def sight_of(view: View, bounds: NDArray[np.float64], count: int) -> Sight:
+    """Return the parts of the camera's view that ``count - 1`` maps of their own may show.
 
     The depths are fractions of the scene's diagonal, so that they do not change when the camera
     moves. Anything farther is left to the map of the whole scene.
@@ -146,21 +188,44 @@ def _slices(
     reach = length(bounds[1] - bounds[0])
     ends = [reach * _RATIO ** (k - count) for k in range(1, count)]
     starts = [0.0, *ends[:-1]]
-    if view.eye[3] == 0.0 and count > 1:  # without perspective, distant objects are not smaller
+    if view.eye[3] == 0.0:  # without perspective, distant objects are not smaller
         starts, ends = [near], [near + _rounded_up(far - near, 1)]
+    if count == 1 or reach == 0.0:
+        return Sight(view, [], 0.0, 0.0)
+    slices = _slices(view, list(zip(starts, ends, strict=False)))
+    last = slices[-1]
+    texels = last.side * view.pixels_at(last.end)
+    return Sight(view, [one for one in slices if one.end >= near], texels, _RATIO * last.end)
+
+
+def _slices(view: View, depths: list[tuple[float, float]]) -> list[Slice]:
+    """Return the camera's view between pairs of depths."""
     view_from_clip = linalg.inverse(view.projection)
     corners = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
     lines = [[_unproject(view_from_clip, x, y, z) for z in (-1.0, 0.0)] for x, y in corners]
     world_from_view = linalg.inverse(view.view_from_world)
     found = []
-    for start, end in zip(starts, ends, strict=False):
-        if end < near:
-            continue
+    for start, end in depths:
         points = [_at_depth(line, depth) for depth in (start, end) for line in lines]
         middle, radius = _sphere(points)
-        world = [_dot(row[:3], middle) + float(row[3]) for row in world_from_view[:3]]
-        found.append((2.0 * radius, tuple(world)))
+        world, *around = (
+            [_dot(row[:3], at) + float(row[3]) for row in world_from_view[:3]]
+            for at in (middle, *points)
+        )
+        box = np.array([np.min(around, axis=0), np.max(around, axis=0)])
+        found.append(Slice(end, 2.0 * radius, tuple(world), box))
     return found
+
+
+def _size_for(light: DirectionalLight, sight: Sight, whole: float) -> int:
+    """Return the maps' side: where a map serves the farthest, its texels are as wide as pixels.
+
+    It depends on no place of the camera, so that texels keep their width as it moves.
+    """
+    margin = shadow_margin(light)
+    wanted = max(sight.texels, whole * sight.view.pixels_at(sight.beyond))
+    texels = math.ceil(_rounded_up(min(wanted, MOST_MAP), 2)) + 2 * margin
+    return max(min(texels, light.shadow_map_size), LEAST_MAP, 4 * margin)
 
 
 def _unproject(
@@ -191,7 +256,7 @@ def _cascades(
     light: DirectionalLight,
     pose: tuple[Sequence[float], None],
     bounds: NDArray[np.float64],
-    view: View,
+    sight: Sight,
 ) -> ShadowViews:
     """Return the maps of a directional light.
 
@@ -200,7 +265,7 @@ def _cascades(
     flicker. Along the light it covers the whole scene.
     """
     axes = _axes_along(tuple(-part for part in pose[0]))
-    size, margin = light.shadow_map_size, shadow_margin(light)
+    margin = shadow_margin(light)
     sides, downs, depths = (_extent(axis, bounds) for axis in axes)
     step = _rounded_up(depths[1] - depths[0], 1) / 32.0
     first, last = (
@@ -210,11 +275,12 @@ def _cascades(
     rise = _single(2.0 / (last - first))
     depth = rise, _single(-1.0 - first * rise)
     whole = _rounded_up(max(sides[1] - sides[0], downs[1] - downs[0]), 8)
+    size = _size_for(light, sight, whole)
     squares = []
-    for side, middle in _slices(view, bounds, light.shadow_cascades):
-        if side < whole:
-            at = _dot(axes[0], middle), _dot(axes[1], middle)
-            squares.append(_square(side, at, size - 2 * margin, _PLAY))
+    for one in sight.slices:
+        if one.side < whole:
+            at = _dot(axes[0], one.middle), _dot(axes[1], one.middle)
+            squares.append(_square(one.side, at, size - 2 * margin, _PLAY))
     at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5
     squares.append(_square(whole, at, size - 2 * margin, 0.0))
     ahead = (-axes[2]).tolist()
@@ -231,7 +297,7 @@ def _cascades(
         clip[3, 3] = 1.0
         maps.append(MapView(clip, view_from_world, eye))
         places.append((scale, x, y))
-    return ShadowViews(maps, places, axes, depth, margin)
+    return ShadowViews(maps, places, axes, depth, margin, size)
 
 
 # Point and spot lights
@@ -283,14 +349,14 @@ def _local_views(
     at = np.array(position, np.float32).astype(np.float64)
     maps = _looks_from(at, all_axes, scale, size, depth)
     places = [(scale, size / 2, size / 2)] * len(maps)
-    return ShadowViews(maps, places, all_axes[0], depth, margin)
+    return ShadowViews(maps, places, all_axes[0], depth, margin, size)
 
 
 def _ahead(
     light: SpotLight,
     pose: tuple[Sequence[float], Sequence[float]],
     bounds: NDArray[np.float64],
-    view: View,
+    sight: None,
 ) -> ShadowViews | None:
     """Return the map of a spot light, which covers its cone; None if nothing is in front of it."""
     to_light, position = pose
@@ -310,7 +376,7 @@ def _cube(
     light: PointLight,
     pose: tuple[None, Sequence[float]],
     bounds: NDArray[np.float64],
-    view: View,
+    sight: None,
 ) -> ShadowViews | None:
     """Return the six maps around a point light; None if nothing is there."""
     position = pose[1]
@@ -326,8 +392,8 @@ def _cube(
 
 
 #: The functions that place a light's maps, by layout (directional, spot or point); each takes
-#: light, pose, scene box and camera view.
-VIEWS: dict[str, Callable[[Any, Any, NDArray[np.float64], View], ShadowViews | None]] = {
+#: light, pose, scene box and, if the light is directional, what the camera sees.
+VIEWS: dict[str, Callable[[Any, Any, NDArray[np.float64], Any], ShadowViews | None]] = {
     "cascades": _cascades,
     "cube": _cube,
     "ahead": _ahead,

@@ -15,6 +15,7 @@ import numpy as np
 from ...model.geometry.mesh import Mesh
 from ...rendering.canvas import Canvas, text_size
 from ...rendering.frame import Frame
+from ..views.free_region import NOTHING, Taken
 from .theme import Theme
 from .ticks import label as number_text
 from .ticks import ticks
@@ -85,16 +86,27 @@ class AxesGrid(NamedTuple):
         rows = np.array(colors, np.uint8)
         return Mesh(np.array(points), lines=lines, colors=rows, name="axes grid")
 
-    def label(self, frame: Frame, far: tuple[bool, bool, bool], scale: int, theme: Theme) -> None:
-        """Write the numbers along one edge of each axis, with the axis's name and unit."""
+    def label(
+        self,
+        frame: Frame,
+        far: tuple[bool, bool, bool],
+        scale: int,
+        theme: Theme,
+        beside: Taken = NOTHING,
+    ) -> None:
+        """Write the numbers along one edge of each axis, with the axis's name and unit.
+
+        They stay in the picture, beside the part that something else takes.
+        """
         canvas = frame.canvas()
+        free = canvas.width * (1.0 - beside.right), canvas.height * (1.0 - beside.bottom)
         middle, _ = frame.project((self.low + self.high) / 2)
         taken: list[Box] = []
         for axis in range(3):
             edge = self._edge(frame, axis, far)
             if edge is not None:
                 for label in self._labels(frame, axis, edge, middle, scale):
-                    self._write(label, canvas, taken, scale, theme)
+                    self._write(label, canvas, np.array(free), taken, scale, theme)
 
     def _edge(self, frame: Frame, axis: int, far: tuple[bool, bool, bool]) -> np.ndarray | None:
         """Return the labelled edge along an axis, (2, 3); None if none is visible.
@@ -160,18 +172,27 @@ class AxesGrid(NamedTuple):
         return max(1, math.ceil(needed * (len(texts) - 1) / length))
 
     def _write(
-        self, label: _Label, canvas: Canvas, taken: list[Box], scale: int, theme: Theme
+        self,
+        label: _Label,
+        canvas: Canvas,
+        free: np.ndarray,
+        taken: list[Box],
+        scale: int,
+        theme: Theme,
     ) -> None:
-        """Write a text outward from a point, unless it would overlap another."""
+        """Write a text outward from a point, unless it would overlap or touch another."""
         size = np.array(text_size(label.text, scale), np.float64)
         reach = label.gap + abs(label.outward[0]) * size[0] / 2
         corner = np.asarray(label.at) + label.outward * reach - size / 2
         if not np.isfinite(corner).all():
             return
+        if ((label.at >= 0) & (label.at < free)).all():
+            corner = corner.clip(0, np.maximum(free - size, 0))
         box = (*corner.tolist(), *(corner + size).tolist())
         if any(_overlap(box, other) for other in taken):
             return
-        taken.append(box)
+        letter = text_size("M", scale)[0]
+        taken.append((box[0] - letter, box[1], box[2] + letter, box[3]))
         canvas.text(round(box[0]), round(box[1]), label.text, theme.text, scale=scale)
 
 

@@ -11,6 +11,7 @@ from ...model.scene.nodes import Node
 from ...model.scene.staged_scene import StagedScene
 from ...rendering.frame import Frame
 from ..viewed_scene import ViewedScene
+from ..views.free_region import Taken
 from .axes_grid import AxesGrid
 from .theme import Theme
 
@@ -63,7 +64,7 @@ class BoxGrid:
         if self._node is not None:
             self._node.visible = shown
 
-    def label(self, frame: Frame, scale: int, theme: Theme) -> None:
-        """Write the numbers of the grid, if it is in the frame."""
+    def label(self, frame: Frame, scale: int, theme: Theme, beside: Taken) -> None:
+        """Write the numbers of the grid, if it is in the frame, as `AxesGrid.label` does."""
         if self._node is not None and self._far is not None:
-            self._grid.label(frame, self._far, scale, theme)
+            self._grid.label(frame, self._far, scale, theme, beside)

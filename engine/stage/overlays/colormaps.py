@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...base.near_words import meant
 from ...base.numbers import as_array
 from ...errors import InvalidArgumentError
 from ...io.loaders import load_texture
@@ -46,11 +47,11 @@ def colormap(name: ColormapLike) -> NDArray[np.uint8]:
 
     Parameters
     ----------
-    name : str, colour map of matplotlib, or (N, 3) or (N, 4) array
+    name : str, colour map of matplotlib, list of str, or (N, 3) or (N, 4) array
         One of `COLORMAPS`, the path of a picture, or positions with colours, as in f3d:
         ``0,#000000,1,white`` or, with three numbers from 0 to 1 per colour, ``0,0,0,0,1,1,1,1``.
         Colours of an array are display values, lowest number first: 0 to 255 if ``uint8``, else 0
-        to 1; alpha is left out.
+        to 1; alpha is left out. A list may name the colours. Few colours show as bands.
 
     Returns
     -------
@@ -74,15 +75,17 @@ def colormap(name: ColormapLike) -> NDArray[np.uint8]:
     if not os.path.isfile(name):
         if "," in name:
             return _placed(name)
-        known = ", ".join(COLORMAPS)
-        raise InvalidArgumentError(f"{name!r} is neither a picture nor one of {known}")
+        known = ", ".join(COLORMAPS) + meant(name, COLORMAPS)
+        raise InvalidArgumentError(f"colormap {name!r} is neither a picture nor one of {known}")
     pixels = load_texture(name).pixels
     return np.ascontiguousarray(pixels[len(pixels) // 2, :, :3])
 
 
 def _checked_table(value: ArrayLike) -> NDArray[np.uint8]:
-    """Return an array of colours as (N, 3) uint8."""
+    """Return an array of colours, or their names, as (N, 3) uint8."""
     array = as_array(value, "colormap")
+    if array.dtype.kind == "U" and array.ndim == 1:
+        array = np.array([color_of_word(word, "colormap")[:3] for word in array.tolist()], np.uint8)
     if array.ndim != 2 or array.shape[1] not in (3, 4) or len(array) < 2:
         raise InvalidArgumentError(
             f"colormap must be a name or (N, 3) colours from N = 2 on, not of shape {array.shape}"

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from ...rendering.frame import Frame
 from ..staging import Staging
 from ..views.camera_view import AnyView
+from ..views.free_region import NOTHING
 
 
 def draw_labels(
@@ -37,11 +38,13 @@ def draw_labels(
     if not (settings.axes or settings.metadata or settings.axes_grid or bar is not None):
         return
     from .overlay import draw_axes, draw_block
-    from .scalar_bar import draw_scalar_bar
+    from .scalar_bar import draw_scalar_bar, place_bar
 
     canvas, scale = frame.canvas(), text_scale(frame)
     if settings.axes_grid and not split:
-        staging.box.label(frame, scale, theme)
+        size = canvas.width, canvas.height
+        beside = NOTHING if bar is None else place_bar(*size, bar, scale).taken(*size)
+        staging.box.label(frame, scale, theme, beside)
     if bar is not None:
         draw_scalar_bar(canvas, bar, scale, theme)
     if settings.axes:

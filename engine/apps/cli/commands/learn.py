@@ -52,6 +52,8 @@ def learn(args: argparse.Namespace) -> int:
         print(programs[number])
         return 0
     if args.output is not None:
+        if os.path.exists(args.output) and not os.path.isdir(args.output):
+            raise UsageError(f"-o FOLDER: {args.output} is not a folder")
         return write(programs[number], args.output, language)
     show(programs, number, language)
     return 0

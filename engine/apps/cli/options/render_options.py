@@ -18,14 +18,14 @@ def add(parser) -> None:
     )
     group.add_argument(
         "--turntable",
-        type=values.count,
+        type=values.picture_count,
         metavar="N",
         help="N pictures of one turn, to .gif, .webp, .apng, .mp4 (with engine3d[video]), or "
         "numbered pictures like frame_%%04d.png or frame_{:04}.png",
     )
     group.add_argument(
         "--animation",
-        type=values.count,
+        type=values.picture_count,
         metavar="N",
         help="N pictures of the model's animation, once through, to files as --turntable writes; "
         "with --turntable it plays while the model turns",

@@ -24,7 +24,7 @@ class ScenePictures:
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self._renderer: Renderer | None = None
-        self._made_for: tuple[tuple[int, int], LookName] | None = None
+        self._look: LookName | None = None
 
     def draw(self, size: tuple[int, int]) -> Frame:
         """Return the frame of the workspace's view."""
@@ -41,11 +41,12 @@ class ScenePictures:
         )
 
     def _renderer_for(self, size: tuple[int, int]) -> Renderer:
-        wanted = size, self._workspace.display.worn_look
-        if self._renderer is None or self._made_for != wanted:
+        look = self._workspace.display.worn_look
+        if self._renderer is None or self._look != look:
             self.close()
-            self._renderer = Renderer(size, look=self._workspace.display.worn_look)
-            self._made_for = wanted
+            self._renderer, self._look = Renderer(size, look=look), look
+        elif self._renderer.size != size:
+            self._renderer.resize(size)
         return self._renderer
 
     def close(self) -> None:

@@ -66,6 +66,7 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 /* Shadow maps: how far samples move towards the light, so that none lies in its own shadow. */
 #define E3D_SHADOW_CORNER 0x1.6a09e6p+0f /* the root of 2, since the comparisons at the corners are farthest from the sample */
 #define E3D_SHADOW_SLACK 0.25f           /* for normals that are not those of the face */
+#define E3D_SOFT_WIDEST 64.0f            /* texels: the greatest radius of a soft shadow's lookup (R226) */
 #define E3D_OVER_PI 0x1.45f306p-2f  /* 1 / pi */
 #define E3D_OVER_2PI 0x1.45f306p-3f /* 1 / (2 pi) */
 #define E3D_OVER_21 0x1.861862p-5f  /* 1 / 21 */

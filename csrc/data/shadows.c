@@ -1,6 +1,8 @@
 /* Checks the shadows of a frame's lights before anything is drawn. */
 #include "data/shadows.h"
 
+#include "base/limits.h"
+
 int e3d_has_exact_shadows(const e3d_frame *frame)
 {
     for (int32_t n = 0; n < frame->light_count; n++)
@@ -35,6 +37,8 @@ static int map_is_valid(const e3d_frame *frame, const e3d_light *light)
     if (!s->depths || !has_maps(light) || s->first < 0 || s->count > frame->shadow_map_count - s->first || !frame->shadow_maps)
         return 0;
     if ((s->taps != 1 && s->taps != 3 && s->taps != 5) || s->size < 1 || s->size > E3D_MAX_SIZE || s->step < 0)
+        return 0;
+    if (s->soft > 0.0f && !(s->widest >= 1.0f && s->widest <= E3D_SOFT_WIDEST))
         return 0;
     /* Numbers of texels fit 32 bits, and all comparisons fit between the sides. */
     return (int64_t)s->count * s->size * s->size <= INT32_MAX && (int64_t)s->step * (s->taps - 1) <= 256 * (int64_t)s->size - 512;

@@ -59,6 +59,7 @@ enum { E3D_MAX_EXACT_LIGHTS = 32 };
 typedef struct e3d_shadow_map {
     float scale, x, y;
     float texel; /* 1 / scale: the width of a texel, at distance 1 if the light has a position */
+    float spread; /* soft lights: scale / |depth[0]|, or scale / |depth[1]| if the light has a position (R225) */
 } e3d_shadow_map;
 
 /* The shadow maps of a light, and the parameters of a lookup in them. */
@@ -72,8 +73,14 @@ typedef struct e3d_light_maps {
     float margin;
     float axes[3][3];        /* unit vectors to the map's right, down it and ahead, as the light shines; not of a cube */
     float depth[2];          /* the ndc depth at a distance ahead: depth[0] * ahead + depth[1], or depth[0] + depth[1] / ahead */
+    /* The size of a soft light: the tangent of half its angle, or its radius if it has a position; 0: shadows are hard (R225) */
+    float soft;
+    float widest;            /* soft lights: the greatest radius of a lookup in texels, 1 to 64 */
+    float nearest;           /* soft lights: the least of all depths */
     const float *depths;     /* (count, size, size) ndc depths of what the maps show */
-    const uint32_t *ranges;  /* their ranges, by e3d_find_shadow_ranges; NULL: all samples are compared with depths */
+    /* Their ranges, by e3d_find_shadow_ranges, or e3d_find_soft_ranges if the light is soft; NULL: all samples are compared with
+     * depths */
+    const uint32_t *ranges;
 } e3d_light_maps;
 
 typedef struct e3d_light_shadow {
@@ -87,6 +94,8 @@ int32_t e3d_shadow_ranges_side(int32_t size);
 /* Finds the ranges of a map, (size, size): for each block the least and the greatest depth that comparisons may read, (side,
  * side). Most samples are before or behind the whole range, and need no comparisons. */
 e3d_status e3d_find_shadow_ranges(const float *depths, int32_t size, int32_t taps, int32_t step, uint32_t *ranges);
+/* The same for a soft light, (2, side, side): the least depths near and far around each block. */
+e3d_status e3d_find_soft_ranges(const float *depths, int32_t size, int32_t taps, int32_t step, float widest, uint32_t *ranges);
 
 typedef struct e3d_light {
     e3d_light_kind kind;

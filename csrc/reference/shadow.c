@@ -1,13 +1,16 @@
 /* Shadow: the share of a light that reaches a surface, by the shadow maps that were drawn from the light.
  * In: a surface, one of the frame's lights, the depths of its maps. Out: the share, from 0 to 1.
- * Rules: R90 (where it counts), R91 (the sample moves towards the light), R92 (its place in the maps), R93 (comparisons).
+ * Rules: R90 (where it counts), R91 (the sample moves towards the light), R92 (its place in the maps), R93 (comparisons),
+ * R225 (the size of soft lights).
  * Sources: Williams 1978; Reeves, Salesin and Cook 1987. */
 #include "reference/arithmetic.h"
+#include "reference/soft_shadow.h"
 #include "reference/surface.h"
 
-/* The place of a sample in the maps of its light; map: -1 if it is in none. */
+/* The place of a sample in the maps of its light; map: -1 if it is in none. `ahead` is its distance from the light along the
+ * map's axis, 1 if the light has no position; `spread` is the map's. */
 typedef struct place {
-    float x, y, depth;
+    float x, y, depth, ahead, spread;
     int32_t map;
 } place;
 
@@ -53,7 +56,7 @@ static place place_cascades(const e3d_light_maps *shadow, const e3d_shadow_map *
         x = x + (along[0] * shift) * map->scale;
         y = y + (along[1] * shift) * map->scale;
         float ahead = at[2] + along[2] * shift;
-        return (place){x, y, (ahead * shadow->depth[0] + shadow->depth[1]) + shadow->bias, k};
+        return (place){x, y, (ahead * shadow->depth[0] + shadow->depth[1]) + shadow->bias, 1.0f, map->spread, k};
     }
     return (place){.map = -1};
 }
@@ -64,7 +67,7 @@ static place project(const e3d_light_maps *shadow, const e3d_shadow_map *map, co
     float x = (at[0] * near) * map->scale + map->x, y = (at[1] * near) * map->scale + map->y;
     if (!(at[2] > 0.0f) || !is_inside(shadow, x, y))
         return (place){.map = -1};
-    return (place){x, y, (shadow->depth[0] + shadow->depth[1] * near) + shadow->bias, number};
+    return (place){x, y, (shadow->depth[0] + shadow->depth[1] * near) + shadow->bias, at[2], map->spread, number};
 }
 
 /* R92 */
@@ -135,6 +138,14 @@ static int32_t tap(const e3d_light_maps *shadow, const float *map, int32_t x, in
     return sum;
 }
 
+/* R225, R229 */
+static ref_soft_place soft_place_of(const e3d_light_maps *shadow, const place *at, float c)
+{
+    float size = ref_min(shadow->soft, (0.5f * c) * at->ahead);
+    return (ref_soft_place){at->x, at->y, at->depth, ref_max(size * at->spread, 0.0f),
+                            ref_max(((0.75f * c) * at->ahead) * at->spread, 0.0f)};
+}
+
 /* R93 */
 static float compare(const e3d_light_maps *shadow, const place *at)
 {
@@ -161,6 +172,11 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
         return ref_is_in_exact_shadow(light, surface) ? 0.0f : 1.0f;
     for (int k = 0; k < 3; k++)
         p[k] = e3d_light_traits_of(light->kind).has_position ? surface->lit_position[k] - light->position[k] : surface->lit_position[k];
-    place at = place_of(light, frame->shadow_maps + light->shadow.maps.first, p, normal, sine);
-    return at.map < 0 ? 1.0f : compare(&light->shadow.maps, &at);
+    const e3d_light_maps *shadow = &light->shadow.maps;
+    place at = place_of(light, frame->shadow_maps + shadow->first, p, normal, sine);
+    if (at.map < 0 || !(shadow->soft > 0.0f))
+        return at.map < 0 ? 1.0f : compare(shadow, &at);
+    const float *map = shadow->depths + (size_t)at.map * (size_t)shadow->size * (size_t)shadow->size;
+    ref_soft_place soft = soft_place_of(shadow, &at, ref_dot3(normal, l));
+    return ref_soft_share(shadow, map, &soft);
 }

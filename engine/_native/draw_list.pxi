@@ -445,6 +445,7 @@ cdef class NativeDrawList:
     def set_shadow(
         self, int number, const float[:, :, ::1] depths not None, list places not None, *, int taps, int step,
         float margin, float bias, float normal_bias, axes, depth, const uint32_t[:, :, ::1] ranges=None,
+        float soft=0.0, float widest=1.0, float nearest=0.0,
     ):
         """Give a light its maps: (maps, size, size), the numbers of e3d_shadow_map of each, and their ranges, if these are found."""
         cdef e3d_light *light = self.light_at(number)
@@ -458,18 +459,20 @@ cdef class NativeDrawList:
         for k in range(3):
             copy_vector(maps.axes[k], axes[k], 3)
         copy_vector(maps.depth, depth, 2)
+        maps.soft, maps.widest, maps.nearest = soft, widest, nearest
+        reach = abs(maps.depth[e3d_light_traits_of(light.kind).has_position])
         for scale, x, y in places:
             self.shadow_maps = <e3d_shadow_map *>grown(
                 self.shadow_maps, self.shadow_map_count, &self.shadow_map_capacity, sizeof(e3d_shadow_map)
             )
             map = &self.shadow_maps[self.shadow_map_count]
-            map.scale, map.x, map.y, map.texel = scale, x, y, 1.0 / scale
+            map.scale, map.x, map.y, map.texel, map.spread = scale, x, y, 1.0 / scale, scale / reach
             self.shadow_map_count += 1
         self.depths.append(depths)
         maps.depths = &depths[0, 0, 0]
         if ranges is not None:
             require_ranges(ranges[0], maps.size)
-            require(ranges.shape[0] == depths.shape[0], "each map has its ranges")
+            require(ranges.shape[0] == depths.shape[0] * (2 if soft > 0.0 else 1), "each map has its ranges")
             self.depths.append(ranges)
             maps.ranges = &ranges[0, 0, 0]
         light.shadow.kind = E3D_SHADOW_MAP

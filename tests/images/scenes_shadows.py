@@ -44,6 +44,9 @@ variant("shadow_sun_one_tap", sun, shadow_taps=1)
 variant("shadow_sun_five_taps", sun, shadow_taps=5)
 variant("shadow_sun_wide", sun, shadow_taps=3, shadow_radius=2.6)
 variant("shadow_sun_biased", sun, shadow_bias=0.01, shadow_normal_bias=-0.02)
+variant("shadow_sun_soft", sun, shadow_softness=0.12)
+variant("shadow_sun_soft_forward", sun, shading="forward", shadow_softness=0.03, shadow_taps=5)
+variant("shadow_sun_soft_samples_4", sun, samples=4, shadow_softness=0.3)
 variant("shadow_sun_samples_4", sun, samples=4)
 variant("shadow_sun_forward", sun, shading="forward")
 
@@ -62,7 +65,7 @@ def shadow_cascades():
     return seen(scene, (0.2, 1.6, 3.0), (0, 0.9, -6), zfar=200.0)
 
 
-def lamp(taps=3, radius=1.0, samples=1):
+def lamp(taps=3, radius=1.0, samples=1, softness=0.0):
     """Twigs all around a lamp, so that shadows cross the seams of its cube."""
     scene = stage(ambient=e3d.linear(0.05, 0.05, 0.06))
     wall = floor(6.0, color=e3d.linear(0.7, 0.72, 0.8))
@@ -77,6 +80,7 @@ def lamp(taps=3, radius=1.0, samples=1):
         shadow_map_size=128,
         shadow_taps=taps,
         shadow_radius=radius,
+        shadow_softness=softness,
     )
     scene.add(light, translation=(-0.1, 1.3, 0.5))
     return seen(scene, samples=samples)
@@ -85,9 +89,10 @@ def lamp(taps=3, radius=1.0, samples=1):
 variant("shadow_lamp", lamp)
 variant("shadow_lamp_five_taps", lamp, 5)
 variant("shadow_lamp_wide", lamp, 5, 3.3)
+variant("shadow_lamp_soft", lamp, softness=0.1)
 
 
-def spot(angle, taps, reach=math.inf):
+def spot(angle, taps, reach=math.inf, softness=0.0):
     scene = stage(ambient=e3d.linear(0.06, 0.06, 0.08))
     light = e3d.SpotLight(
         intensity=14.0 * math.pi,
@@ -96,6 +101,7 @@ def spot(angle, taps, reach=math.inf):
         shadow="map",
         shadow_map_size=192,
         shadow_taps=taps,
+        shadow_softness=softness,
     )
     scene.add(light, pose=e3d.look_at((1.8, 2.4, 1.2), (0, 0.2, 0)))
     return seen(scene)
@@ -104,6 +110,7 @@ def spot(angle, taps, reach=math.inf):
 variant("shadow_spot", spot, 0.6, 3)
 variant("shadow_spot_as_wide_as_can_be", spot, math.pi / 2, 5)
 variant("shadow_spot_range", spot, 0.7, 1, 3.2)
+variant("shadow_spot_soft", spot, 0.6, 3, softness=0.15)
 
 
 @picture

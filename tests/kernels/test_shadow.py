@@ -12,7 +12,11 @@ from kernels.surfaces import fill, planes, random_batches
 from kernels.test_light import DIRECTIONAL, POINT, random_lights, random_normals, reach_of, towards
 
 import engine3d as e3d
-from engine3d._native.rasterizer import find_shadow_ranges, shadow_ranges_side
+from engine3d._native.rasterizer import (
+    find_shadow_ranges,
+    find_soft_ranges,
+    shadow_ranges_side,
+)
 
 SPOT = 2
 CORNER, SLACK = np.float32(float.fromhex("0x1.6a09e6p+0")), np.float32(0.25)
@@ -162,7 +166,7 @@ def random_maps(rng, lights):
         shadow["depths"] = depths.ctypes.data
         scale = rng.uniform(3, 9, count) * np.float32(2.0) ** np.arange(0, -count, -1)
         middle = np.float32(shadow["size"]) * np.float32(0.5) + rng.uniform(-2, 2, (2, count))
-        rows = np.stack([scale, *middle, scale]).T.astype(np.float32)
+        rows = np.stack([scale, *middle, scale, scale]).T.astype(np.float32)
         rows[:, 3] = ONE / rows[:, 0]
         maps += [tuple(row) for row in rows]
     return np.array(maps, SHADOW_MAP), depths
@@ -252,6 +256,27 @@ def test_ranges(size, taps, step):
     for (row, column), word in np.ndenumerate(ranges):
         of = codes[2 * row : 2 * row + far + 2, 2 * column : 2 * column + far + 2]
         assert np.int16(word & 0xFFFF) == of.min() and np.int16(word >> 16) == of.max()
+
+
+@pytest.mark.parametrize(("size", "widest"), [(9, 1.0), (33, 5.5), (64, 12.0), (40, 64.0)])
+def test_ranges_of_soft_lights(size, widest):
+    """A block's codes are those of the least depths as many blocks around it as each window has."""
+    depths = np.random.default_rng(size).uniform(-1.2, 1.2, (size, size)).astype(np.float32)
+    side = shadow_ranges_side(size)
+    ranges = np.empty((2, side, side), np.uint32)
+    find_soft_ranges(depths, 3, 256, widest, ranges)
+    limit = np.float32(32767)
+    codes = np.trunc(np.clip(depths * np.float32(32000), -limit, limit)).astype(np.int64)
+    for window, blocks in enumerate((1, 2, 8, int(np.float32(1.16) * np.float32(widest)) // 2 + 1)):
+        words = (ranges[window // 2] >> (16 * (window % 2)) & 0xFFFF).astype(np.uint16)
+        reach = min(blocks, side)
+        for (row, column), code in np.ndenumerate(words.view(np.int16)):
+            # At the begin a window is as wide as anywhere.
+            rows, columns = (
+                slice(2 * max(at - reach, 0), 2 * (max(at, reach) + reach + 1))
+                for at in (row, column)
+            )
+            assert code == codes[rows, columns].min()
 
 
 @pytest.mark.parametrize(

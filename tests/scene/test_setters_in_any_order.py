@@ -86,6 +86,7 @@ SHADOWS = {
     "shadow_normal_bias": lambda r, t: pick(r, 0.0, 0.02),
     "shadow_radius": lambda r, t: pick(r, 0.5, 1.0),
     "shadow_taps": lambda r, t: pick(r, 3, 5),
+    "shadow_softness": lambda r, t: pick(r, 0.0, 0.1),
 }
 LIGHT = {
     "color": lambda r, t: color(r),

@@ -15,6 +15,7 @@ FIELDS = {
     "shadow_normal_bias": 0.02,
     "shadow_radius": 1.5,
     "shadow_taps": 5,
+    "shadow_softness": 0.25,
 }
 
 
@@ -37,6 +38,7 @@ def test_lights_have_no_shadow_by_default():
         assert light.shadow == "none"
         assert (light.shadow_map_size, light.shadow_radius, light.shadow_taps) == (1024, 1.0, 3)
         assert (light.shadow_bias, light.shadow_normal_bias) == (0.0, 0.0)
+        assert light.shadow_softness == 0.0
 
 
 def test_scene_files_keep_it(tmp_path):

@@ -152,6 +152,7 @@ def light(r):
     common = {"color": color(r), "intensity": pick(r, 1.0, 0.0, 3.7)}
     common.update(shadow=pick(r, "none", "map", "exact"), shadow_map_size=pick(r, 1024, 64))
     common.update(shadow_bias=pick(r, 0.0, 0.01), shadow_taps=pick(r, 3, 5))
+    common.update(shadow_softness=pick(r, 0.0, 0.125))
     makers = (
         lambda: e3d.DirectionalLight(pick(r, (0, 0, -1), (0, 0, 1), (1, -2, 0.5)), **common),
         lambda: e3d.PointLight(range=3.0, falloff=pick(r, *FALLOFFS), **common),

@@ -22,6 +22,7 @@ from ...errors import InvalidArgumentError
 SHADOWS: tuple[LightShadow, ...] = get_args(LightShadow)
 TAPS: tuple[ShadowTaps, ...] = get_args(ShadowTaps)
 LEAST_MAP, MOST_MAP = 32, 8192
+MOST_RADIUS = 64.0  # texels, of the lookups of soft shadows
 
 ShadowAttribute: TypeAlias = CheckedAttribute[LightShadow, LightShadow]
 TapsAttribute: TypeAlias = CheckedAttribute[ShadowTaps, ShadowTaps]
@@ -50,6 +51,7 @@ class CastsShadows(Closed):
     shadow_normal_bias: NumberAttribute = CheckedAttribute(finite)
     shadow_radius: NumberAttribute = CheckedAttribute(_radius)
     shadow_taps: TapsAttribute = CheckedAttribute(one_of(TAPS))
+    shadow_softness: NumberAttribute = CheckedAttribute(not_negative)
 
     def _keep(self, arguments: dict[str, Any]) -> None:
         """Store the arguments of a constructor as attributes of the same names."""
@@ -66,11 +68,23 @@ class CastsShadows(Closed):
             )
 
 
+def shadow_reach(light: CastsShadows) -> float:
+    """Return how many texels away from a sample the comparisons of hard shadows reach."""
+    return light.shadow_radius * (light.shadow_taps - 1) / 2 + 1
+
+
+def widest_radius(light: CastsShadows) -> float:
+    """Return the greatest radius of a lookup of soft shadows, in texels (R230)."""
+    return max(min(light.shadow_map_size / 16, MOST_RADIUS), shadow_reach(light))
+
+
 def shadow_margin(light: CastsShadows) -> int:
     """Return how many texels at each side of a light's map are reserved for comparisons.
 
     They make room for the reach of comparisons and, for directional lights, for the offset of
     samples along their normals (R91).
     """
-    reach = light.shadow_radius * (light.shadow_taps - 1) / 2 + 1
+    reach = shadow_reach(light)
+    if light.shadow_softness > 0.0:
+        return math.ceil(1.16 * widest_radius(light) + 1.8 * reach)
     return math.ceil(2.8 * reach)

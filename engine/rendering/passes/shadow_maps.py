@@ -12,8 +12,16 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..._native.rasterizer import CULLS, LIGHT_TRAITS, find_shadow_ranges, shadow_ranges_side
+from ..._native.rasterizer import (
+    CULLS,
+    LIGHT_TRAITS,
+    find_shadow_ranges,
+    find_soft_ranges,
+    shadow_ranges_side,
+)
+from ...base.linalg import cos, sin
 from ...model.scene.lights import DirectionalLight, DirectLight
+from ...model.scene.shadow_casting import widest_radius
 from ...model.scene.staged_data import NodeRows
 from .._memo import Memo
 from ..casters import placed_casters
@@ -31,28 +39,51 @@ class _LightMaps:
     """The maps of one light: depths, ranges, and the state each was drawn from."""
 
     def __init__(self, count: int, size: int) -> None:
-        side = shadow_ranges_side(size)
         self.depths = np.empty((count, size, size), np.float32)
-        self.ranges = np.empty((count, side, side), np.uint32)
+        self.ranges = np.empty((0, 0, 0), np.uint32)
         self.drawn = [_Drawn() for _ in range(count)]
 
     def fits(self, count: int, size: int) -> bool:
         return self.depths.shape == (count, size, size)
 
-    def find_ranges(self, taps: int, step: int) -> NDArray[np.uint32] | None:
+    def find_ranges(self, taps: int, step: int, widest: float = 0.0) -> NDArray[np.uint32] | None:
         """Return the ranges of all maps; None if one is new.
 
+        ``widest`` is the greatest radius of a soft light's lookups; 0 if its shadows are hard.
         Ranges are computed at the second lookup of a map, because computing them takes about as
         long as they save in a frame.
         """
-        for depths, ranges, drawn in zip(self.depths, self.ranges, self.drawn, strict=True):
-            if not drawn.is_new and drawn.compared != (taps, step):
-                find_shadow_ranges(depths, taps, step, ranges)
-                drawn.compared = taps, step
-        are_found = all(drawn.compared == (taps, step) for drawn in self.drawn)
+        compared = (taps, step, widest) if widest > 0.0 else (taps, step)
+        side, words = shadow_ranges_side(self.depths.shape[1]), len(compared) - 1
+        shape = words * len(self.depths), side, side
+        if self.ranges.shape != shape:
+            self.ranges = np.empty(shape, np.uint32)
+        for k, (depths, drawn) in enumerate(zip(self.depths, self.drawn, strict=True)):
+            if not drawn.is_new and drawn.compared != compared:
+                if widest > 0.0:
+                    find_soft_ranges(depths, taps, step, widest, self.ranges[2 * k : 2 * k + 2])
+                else:
+                    find_shadow_ranges(depths, taps, step, self.ranges[k])
+                drawn.compared = compared
+        are_found = all(drawn.compared == compared for drawn in self.drawn)
         for drawn in self.drawn:
             drawn.is_new = False
         return self.ranges if are_found else None
+
+    def find_nearest(self) -> float:
+        """Return the least depth of all maps, which is where blockers of soft lights begin."""
+        for depths, drawn in zip(self.depths, self.drawn, strict=True):
+            if drawn.nearest is None:
+                drawn.nearest = float(depths.min())
+        return min(drawn.nearest for drawn in self.drawn if drawn.nearest is not None)
+
+
+def _softness(light: DirectLight) -> float:
+    """Return the size of a light as R225 takes it; 0 if its shadows are hard."""
+    if not isinstance(light, DirectionalLight):
+        return light.shadow_softness
+    half = 0.5 * light.shadow_softness
+    return float(sin(half) / cos(half))
 
 
 class _Drawn:
@@ -64,7 +95,8 @@ class _Drawn:
     def __init__(self) -> None:
         self.moment, self.casters = Memo(), Memo()
         self.is_new = True
-        self.compared: tuple[int, int] | None = None
+        self.compared: tuple[float, ...] | None = None
+        self.nearest: float | None = None  # the least depth, if it was asked for
 
 
 class ShadowMaps(Pass):
@@ -162,18 +194,22 @@ class ShadowMaps(Pass):
             self._update_map(kept.depths[k], kept.drawn[k], seen, moment)
         self._count += count
         taps, step = light.shadow_taps, round(256 * light.shadow_radius)
+        soft, widest = _softness(light), widest_radius(light)
         self.tools.draw_list.native.set_shadow(
             number,
             kept.depths,
             views.places,
             taps=taps,
             step=step,
-            ranges=kept.find_ranges(taps, step),
+            ranges=kept.find_ranges(taps, step, widest if soft > 0.0 else 0.0),
             margin=views.margin,
             bias=2.0 * light.shadow_bias,  # depths range from -1 to 1
             normal_bias=light.shadow_normal_bias,
             axes=views.axes,
             depth=views.depth,
+            soft=soft,
+            widest=widest,
+            nearest=kept.find_nearest() if soft > 0.0 else 0.0,
         )
 
     def _update_map(
@@ -190,7 +226,7 @@ class ShadowMaps(Pass):
             selection[slot >> 6] &= ~np.uint64(1 << (slot & 63))
         casters = placed_casters(arrays, selection)
         if drawn.casters.differs(clip, arrays, renewals, cull, casters):
-            drawn.is_new, drawn.compared = True, None
+            drawn.is_new, drawn.compared, drawn.nearest = True, None, None
             native = self.tools.draw_list.native
             native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
             self.tools.native.draw_shadow_map(native, depths, *seen, cull, id(drawn))

@@ -19,7 +19,13 @@ from numpy.typing import NDArray
 from ...base import linalg
 from ...base.linalg.single import cross, length, normalize
 from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
-from ...model.scene.shadow_casting import LEAST_MAP, MOST_MAP, shadow_margin
+from ...model.scene.shadow_casting import (
+    LEAST_MAP,
+    MOST_MAP,
+    shadow_margin,
+    shadow_reach,
+    widest_radius,
+)
 from .._view import View
 
 _RATIO = 4.0  # each cascade reaches this many times as far as the one before
@@ -342,7 +348,9 @@ def _local_views(
 ) -> ShadowViews:
     size = light.shadow_map_size
     # Comparisons reach this many texels beyond, and slightly farther by rounding.
-    margin = math.ceil(light.shadow_radius * (light.shadow_taps - 1) / 2 + 1.5)
+    margin = math.ceil(shadow_reach(light) + 0.5)
+    if light.shadow_softness > 0.0:
+        margin = math.ceil(1.16 * widest_radius(light) + 1.0)
     scale = _single((size / 2 - margin - 0.5) / tangent)
     near, far = between
     depth = _single((far + near) / (far - near)), _single(-2.0 * far * near / (far - near))

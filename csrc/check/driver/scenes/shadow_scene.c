@@ -54,6 +54,27 @@ static void level_depths(e3d_light_maps *shadow, random_stream *r)
     shadow->bias = shadow->depths[random_below(r, shadow->size * shadow->size)];
 }
 
+/* The same of a soft light. */
+static const uint32_t *soft_ranges_of(scene *s, const e3d_light_maps *shadow)
+{
+    size_t side = (size_t)e3d_shadow_ranges_side(shadow->size), texels = (size_t)shadow->size * (size_t)shadow->size;
+    uint32_t *ranges = kept_array(s, 2 * (size_t)shadow->count * side * side, sizeof *ranges);
+    for (size_t k = 0; k < (size_t)shadow->count; k++)
+        if (e3d_find_soft_ranges(shadow->depths + k * texels, shadow->size, shadow->taps, shadow->step, shadow->widest,
+                                 ranges + 2 * k * side * side) != E3D_OK)
+            abort();
+    return ranges;
+}
+
+/* Makes a light soft, from hardly at all to so wide that all lookups are as wide as may be. */
+static void soften(scene *s, e3d_light_maps *shadow, random_stream *r)
+{
+    shadow->soft = ldexpf(random_float(r, 0.5f, 1.0f), random_below(r, 16) - 10);
+    shadow->widest = random_once_in(r, 2) ? random_float(r, 1.0f, 12.0f) : random_float(r, 1.0f, 64.0f);
+    shadow->nearest = number(r, -1.2f, 0.0f);
+    shadow->ranges = shadow->ranges ? soft_ranges_of(s, shadow) : NULL;
+}
+
 static void add_map(scene *s, e3d_light *light, const float *depths, e3d_shadow_map *maps, int32_t *count, random_stream *r)
 {
     e3d_light_maps *shadow = &light->shadow.maps;
@@ -79,9 +100,12 @@ static void add_map(scene *s, e3d_light *light, const float *depths, e3d_shadow_
         level_depths(shadow, r);
     if (!random_once_in(r, 3))
         shadow->ranges = ranges_of(s, shadow);
+    if (random_once_in(r, 2))
+        soften(s, shadow, r);
     for (int32_t k = 0; k < shadow->count; k++) {
         float scale = number(r, 1.0f, 20.0f), middle = 0.5f * (float)shadow->size;
-        maps[(*count)++] = (e3d_shadow_map){scale, middle + number(r, -3.0f, 3.0f), middle + number(r, -3.0f, 3.0f), 1.0f / scale};
+        maps[(*count)++] = (e3d_shadow_map){scale, middle + number(r, -3.0f, 3.0f), middle + number(r, -3.0f, 3.0f), 1.0f / scale,
+                                            number(r, 1.0f, 60.0f)};
     }
 }
 

@@ -1,5 +1,5 @@
 /* shadow: finds how much of a light reaches samples, by the shadow maps that were drawn from it (R91-R94). Sources: Williams
- * 1978 (maps); Reeves, Salesin and Cook 1987 (the mean of comparisons). */
+ * 1978 (maps); Reeves, Salesin and Cook 1987 (the mean of comparisons). Soft lights: soft_shadow.inl. */
 #pragma once
 
 #include <stddef.h>
@@ -17,9 +17,9 @@ typedef struct shadow_lanes {
 } shadow_lanes;
 
 /* Places in the shadow maps: column and row in texels, the depth to compare, the number of the map, and which samples are in
- * one. */
+ * one. For soft lights also the map's spread, and the distance ahead of the light, 1 without a position (R225). */
 typedef struct shadow_place {
-    vf32 x, y, depth;
+    vf32 x, y, depth, spread, ahead;
     vi32 map;
     vmask inside;
 } shadow_place;
@@ -52,6 +52,8 @@ static ALWAYS_INLINE shadow_place shadow_place_cascades(const e3d_light_maps *sh
     vf32 zero = v_setf(0.0f), scale = zero, texel = zero, x0 = zero, y0 = zero;
     place.map = v_seti(0);
     place.inside = v_gt(zero, zero);
+    place.spread = zero;
+    place.ahead = v_setf(1.0f);
     for (int32_t k = shadow->count - 1; k >= 0; k--) {
         vf32 size = v_setf(maps[k].scale);
         vf32 x = v_add(v_mul(s->at[0], size), v_setf(maps[k].x)), y = v_add(v_mul(s->at[1], size), v_setf(maps[k].y));
@@ -61,6 +63,7 @@ static ALWAYS_INLINE shadow_place shadow_place_cascades(const e3d_light_maps *sh
         x0 = v_self(in, x, x0);
         y0 = v_self(in, y, y0);
         place.map = v_seli(in, v_seti(k), place.map);
+        place.spread = v_self(in, v_setf(maps[k].spread), place.spread);
         place.inside = v_mor(in, place.inside);
     }
     vf32 shift = shadow_shift(shadow, texel, s->sine);
@@ -79,6 +82,8 @@ static ALWAYS_INLINE void shadow_project(const e3d_light_maps *shadow, const e3d
     place->y = v_add(v_mul(v_mul(at[1], near), scale), v_setf(map->y));
     place->depth = v_add(v_add(v_setf(shadow->depth[0]), v_mul(v_setf(shadow->depth[1]), near)), v_setf(shadow->bias));
     place->inside = v_mand(v_gt(at[2], v_setf(0.0f)), shadow_is_inside(shadow, place->x, place->y));
+    place->spread = v_setf(map->spread);
+    place->ahead = at[2];
 }
 
 static ALWAYS_INLINE shadow_place shadow_place_ahead(const e3d_light_maps *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
@@ -323,6 +328,30 @@ static ALWAYS_INLINE vf32 shadow_share_of(const e3d_light_maps *shadow, const sh
     return shadow_blend(shadow, &taps);
 }
 
+#include "kernels/generic/shade/soft_shadow.inl"
+
+/* R225, R229; c: the cosine of R91. */
+static ALWAYS_INLINE soft_slopes shadow_slopes(const e3d_light_maps *shadow, const shadow_place *place, vf32 c)
+{
+    vf32 zero = v_setf(0.0f), size = v_min(v_setf(shadow->soft), v_mul(v_mul(v_setf(0.5f), c), place->ahead));
+    vf32 rise = v_mul(v_mul(v_mul(v_setf(0.75f), c), place->ahead), place->spread);
+    return (soft_slopes){v_max(v_mul(size, place->spread), zero), v_max(rise, zero)};
+}
+
+/* R225-R229 for a soft light; `l` is the direction to it. */
+static __attribute__((noinline)) vf32 shadow_soft_reached(const e3d_lighting *lighting, int n, const vf32 position[3],
+                                                          const vf32 normal[3], const vf32 l[3])
+{
+    const e3d_light *light = &lighting->lights[n];
+    const e3d_light_maps *shadow = &light->shadow.maps;
+    shadow_lanes s = shadow_lanes_of(light, position, normal, l);
+    shadow_place place = shadow_place_of(light, lighting->shadows + shadow->first, &s);
+    if (!v_any(place.inside))
+        return v_setf(1.0f);
+    soft_slopes slopes = shadow_slopes(shadow, &place, dot_three(normal, l));
+    return v_self(place.inside, soft_share(shadow, &place, &slopes), v_setf(1.0f));
+}
+
 /* R91-R94 for a point or spot light that has maps; `l` is the direction to it. */
 static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lighting, int n, const vf32 position[3], const vf32 normal[3],
                                                          const vf32 l[3])
@@ -509,13 +538,15 @@ static __attribute__((noinline)) void shadow_find_reached(const e3d_light *light
     shadow_compare_open(&of.shadow.maps, &open, reached);
 }
 
-/* Finds the shares of the first directional lights with maps that reach the samples of a batch. */
+/* Finds the shares of the first directional lights with maps, which are not soft, that reach the samples of a batch. */
 static inline void shadow_suns(const e3d_lighting *lighting, e3d_batch *batch)
 {
     int found = 0;
     for (int n = 0; n < lighting->light_count && found < E3D_SUNS && lighting->shadows; n++) {
         const e3d_light *light = &lighting->lights[n];
         if (e3d_light_traits_of(light->kind).maps != E3D_MAPS_CASCADES || light->shadow.kind != E3D_SHADOW_MAP)
+            continue;
+        if (light->shadow.maps.soft > 0.0f)
             continue;
         shadow_find_reached(light, lighting->shadows + light->shadow.maps.first, batch, batch->reached[found]);
         batch->sun[found++] = n;
@@ -549,5 +580,7 @@ static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, con
     const e3d_lane_array *normals = batch->unmapped_normal ? batch->unmapped_normal : batch->normal;
     vf32 normal[3];
     shadow_load(normals, i, normal);
+    if (shadow->maps.soft > 0.0f)
+        return shadow_soft_reached(lighting, n, position, normal, l);
     return shadow_map_reached(lighting, n, position, normal, l);
 }

@@ -10,7 +10,7 @@
 
 #include "base/fpenv.h"
 #include "data/mirrors.h"
-#include "data/shadows.h"
+#include "data/shadow_maps/shadows.h"
 #include "reference/stages.h"
 
 enum { BAND_SAMPLES = 1 << 20 };

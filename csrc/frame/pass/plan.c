@@ -3,7 +3,7 @@
 
 #include "base/limits.h"
 #include "data/mesh/mesh.h"
-#include "data/shadows.h"
+#include "data/shadow_maps/shadows.h"
 #include "kernels/types/shading.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/transmits.h"

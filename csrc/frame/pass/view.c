@@ -6,7 +6,7 @@
 #include "data/mesh/mesh.h"
 #include "base/pool.h"
 #include "data/sample_patterns.h"
-#include "data/shadows.h"
+#include "data/shadow_maps/shadows.h"
 #include "frame/pass/boxes.h"
 #include "frame/pass/facing.h"
 #include "frame/pass/matrices.h"

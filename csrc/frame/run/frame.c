@@ -5,7 +5,7 @@
 #include "base/fpenv.h"
 #include "base/pool.h"
 #include "data/mirrors.h"
-#include "data/shadows.h"
+#include "data/shadow_maps/shadows.h"
 #include "data/sample_patterns.h"
 #include "e3d.h"
 #include "frame/cull/cull.h"

@@ -1,13 +1,14 @@
 /* soft shadow: finds how much of a light that has a size reaches samples, by its shadow maps (R226-R229): the mean depth of
- * what is between, then the share of a disc that is as wide as the penumbra. shadow.inl includes it. Sources: Fernando 2005;
+ * what is between, then the share of a disc that is as wide as the penumbra. Sources: Fernando 2005;
  * Guennebaud, Barthe and Paulin 2006. */
 #pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
-#include "data/shadow_ranges.h"
-#include "data/soft_ranges.h"
+#include "data/shadow_maps/shadow_ranges.h"
+#include "data/shadow_maps/soft_ranges.h"
 #include "e3d.h"
+#include "kernels/generic/shade/shadow_place.inl"
 
 enum { SOFT_LEVELS = 5,
        SOFT_SEARCH = 4, /* pitches in the radius of a level's disc */

@@ -2,7 +2,7 @@
  * In: the maps of a light, the place of a sample in one of them. Out: the share, from 0 to 1.
  * Rules: R226 (radii, discs), R227 (the search), R228 (the lattice), R229 (the share).
  * Sources: Fernando 2005 (percentage-closer soft shadows); Guennebaud, Barthe and Paulin 2006 (parts of the light). */
-#include "reference/soft_shadow.h"
+#include "reference/shadows/soft_shadow.h"
 
 #include "reference/arithmetic.h"
 

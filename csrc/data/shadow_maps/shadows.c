@@ -1,5 +1,5 @@
 /* Checks the shadows of a frame's lights before anything is drawn. */
-#include "data/shadows.h"
+#include "data/shadow_maps/shadows.h"
 
 #include "base/limits.h"
 

@@ -1,12 +1,12 @@
 /* The ranges of a soft light's map: the least depths around each block of 2 x 2 texels, in windows from small to as wide as a
  * lookup can be.
  * In: depths of a map, and the radii of lookups. Out: two words for each block: the codes (shadow_ranges.h) of four windows. */
-#include "data/soft_ranges.h"
+#include "data/shadow_maps/soft_ranges.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/shadow_ranges.h"
+#include "data/shadow_maps/shadow_ranges.h"
 
 static int16_t code_of(float depth)
 {

@@ -4,7 +4,7 @@
  * R225 (the size of soft lights).
  * Sources: Williams 1978; Reeves, Salesin and Cook 1987. */
 #include "reference/arithmetic.h"
-#include "reference/soft_shadow.h"
+#include "reference/shadows/soft_shadow.h"
 #include "reference/surface.h"
 
 /* The place of a sample in the maps of its light; map: -1 if it is in none. `ahead` is its distance from the light along the

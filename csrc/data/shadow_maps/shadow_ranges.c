@@ -3,7 +3,7 @@
  * (shadow_ranges.h). */
 #include <stdlib.h>
 
-#include "data/shadow_ranges.h"
+#include "data/shadow_maps/shadow_ranges.h"
 #include "e3d.h"
 
 enum { BLOCK = 1 << E3D_SHADOW_BLOCK_SHIFT };

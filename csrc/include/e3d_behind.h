@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/* A picture of what isn't blended, drawn with one sample a pixel (e3d_frame.opaque_only). */
+/* A picture of what isn't blended (e3d_frame.opaque_only); with several samples a pixel, edges are as smooth behind glass. */
 typedef struct e3d_behind {
     const float *radiance; /* (height, width, 3) */
     const uint8_t *color;  /* (height, width, 4) RGBA */

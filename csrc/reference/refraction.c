@@ -151,7 +151,7 @@ static float sharp(const behind *b, float x, float y, int channel)
 /* R163: the texel nearest to a coordinate, and the weights of its neighbour, of itself, and of its other neighbour. */
 static int32_t spline(float x, int level, int32_t side, float weight[3])
 {
-    float u = ref_clamp((x + 0.5f) * ldexpf(1.0f, -level) - 0.5f, 0.0f, (float)(side - 1));
+    float u = ref_clamp((x + 0.5f) * (1.0f / (float)(1 << level)) - 0.5f, 0.0f, (float)(side - 1));
     int32_t i = (int32_t)(u + 0.5f);
     float d = u - (float)i, a = 0.5f - d, c = 0.5f + d;
     weight[0] = (a * a) * 0.5f;

@@ -226,3 +226,18 @@ def test_samples_of_a_pixel(antialiasing, samples):
     several = shot(scene, antialiasing=antialiasing, samples=samples).color.astype(int)
     inner = slice(20, 100), slice(40, 120)
     assert abs(one[inner] - several[inner]).max() <= 12
+
+
+@pytest.mark.parametrize("antialiasing", ["ssaa", "msaa"])
+def test_edges_behind_glass_are_smooth(antialiasing):
+    """Through glass that shifts a slanted edge by whole pixels, or nearly, it has its steps."""
+    scene = e3d.Scene(background=(0, 0, 0), ambient=(0, 0, 0))
+    slanted = e3d.linalg.quaternion_from_axis_angle((0, 0, 1), 0.2)
+    scene.add(flat((255, 255, 255), (1, 9)), translation=(0, 0, -1), rotation=slanted)
+    scene.add(e3d.DirectionalLight(direction=(0, 1, 0), intensity=1e-9))
+    turn = e3d.linalg.quaternion_from_axis_angle((0, 1, 0), np.radians(40))
+    scene.add(pane((4, 4), thickness=0.5), rotation=turn)
+    frame = shot(scene, antialiasing=antialiasing, samples=16)
+    plain = shot(scene, antialiasing=antialiasing, samples=16, refraction=False)
+    between = [((f.color[..., 1] > 90) & (f.color[..., 1] < 220)).sum() for f in (frame, plain)]
+    assert between[0] > 0.7 * between[1] > 50

@@ -1,8 +1,8 @@
 """Refraction: the picture that thick and rough glass shows bent and blurred.
 
-In: the scene without what is blended, drawn with one sample per pixel. Out: that picture with its
-blurred levels, and its depths, which the core reads behind glass (docs/exactness, section 25). It
-is drawn only if something in the picture refracts.
+In: the scene without what is blended, with edges as smooth as the picture's. Out: that picture with
+its blurred levels, and its depths, which the core reads behind glass (docs/exactness, section 25).
+It is drawn only if something in the picture refracts.
 """
 
 from __future__ import annotations
@@ -34,6 +34,8 @@ class Refraction(Pass):
     def __init__(self, tools: Tools) -> None:
         super().__init__(tools)
         self._pool = OutputPool()
+        axis, multiple = tools.samples  # as many samples, of which each surface is shaded once
+        self._samples = 1, multiple or (axis * axis if axis > 1 else 0)
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
         if not options.refraction or options.mode != "lit" or not shows_light(wanted):
@@ -45,7 +47,8 @@ class Refraction(Pass):
             return
         arrays = self._take(picture.size)
         levels, options = arrays.pop("behind"), picture.frame_options
-        draw_outputs(self, picture, arrays, options.opaque, ONE_SAMPLE, has_light=True)
+        samples = ONE_SAMPLE if options.is_transparent else self._samples
+        draw_outputs(self, picture, arrays, options.opaque, samples, has_light=True)
         _native.find_behind(
             arrays["radiance"],
             arrays["color"],

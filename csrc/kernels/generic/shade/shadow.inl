@@ -6,7 +6,7 @@
 
 #include "base/always_inline.h"
 #include "base/limits.h"
-#include "data/shadow_ranges.h"
+#include "data/shadow_maps/shadow_ranges.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"

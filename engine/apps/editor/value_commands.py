@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ...base.held_values import kept
+from ...model.materials.material import Material, put_states_color, states_color
 from ...model.scene.cameras import Camera
 from ...model.scene.lights import DirectLight
 from ...model.scene.nodes import Node
@@ -31,14 +32,15 @@ class SetValues(Command):
         self._values = kept(dict(values))  # the caller may keep modifying its own
         self.nodes = tuple(thing for thing in self._things if isinstance(thing, Node))
         self.label = label or f"Set {', '.join(self._values)} of {_named(self._things)}"
-        self._old: list[tuple[Any, str, Any]] = []
+        self._old: list[tuple[Any, str, Any, bool]] = []
 
     def do(self) -> None:
         self._old = []
         try:
             for thing in self._things:
                 for name, value in self._values.items():
-                    self._old.append((thing, name, kept(getattr(thing, name))))
+                    stated = isinstance(thing, Material) and states_color(thing)
+                    self._old.append((thing, name, kept(getattr(thing, name)), stated))
                     setattr(thing, name, value)
                 check(thing)
         except BaseException:
@@ -46,8 +48,10 @@ class SetValues(Command):
             raise
 
     def undo(self) -> None:
-        for thing, name, old in reversed(self._old):
+        for thing, name, old, stated in reversed(self._old):
             setattr(thing, name, old)
+            if isinstance(thing, Material):
+                put_states_color(thing, stated)
 
     def absorb(self, later: Command) -> bool:
         if not isinstance(later, SetValues) or later._values.keys() != self._values.keys():

@@ -322,8 +322,7 @@ class Material(ShownInNotebooks, Versioned):
                 name: PARAMETERS[name].kind.check(value, name) for name, value in values.items()
             }
             vars(self).update({**_DEFAULTS, "extras": {}, **given})
-            if "color" in given:
-                self._states_color = True
+            self._states_color = "color" in given
             renew(self)
 
     @property
@@ -392,6 +391,16 @@ def imply(material: Material) -> None:
 def is_implied(material: Material) -> bool:
     """Return whether a material is implied: its file does not name it."""
     return material._is_implied
+
+
+def states_color(material: Material) -> bool:
+    """Return whether the colour of a material was ever given."""
+    return material._states_color
+
+
+def put_states_color(material: Material, stated: bool) -> None:
+    """Put back what `states_color` returned, after the colour was."""
+    material._states_color = stated
 
 
 def states_nothing(material: Material) -> bool:

@@ -76,7 +76,7 @@ def _render(
         view.eye,
         id(view.camera),
         *picture.depth_range,
-        picture.sight.frozen,
+        picture.shot.frozen,
         rays,
         visibility,
         mirrors,

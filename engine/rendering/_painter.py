@@ -1,6 +1,6 @@
 """Draws pictures of scenes along views, each with the passes that it needs.
 
-In: a scene, options and a `Sight`. Out: arrays. A renderer has one painter for its frames, and that
+In: a scene, options and a `Shot`. Out: arrays. A renderer has one painter for its frames, and that
 one others for what mirrors show.
 """
 
@@ -21,7 +21,7 @@ from ._turn import RendererTurn
 from .draw_list.draw_list import DrawList
 from .options import RenderOptions, with_both_sides
 from .passes.all_passes import Passes
-from .passes.protocol import Picture, Sight, Tools
+from .passes.protocol import Picture, Shot, Tools
 
 
 class How(NamedTuple):
@@ -76,19 +76,19 @@ class Painter:
         return Painter(self._how._replace(samples=(1, 0)), self._turn)
 
     def look(
-        self, scene: AnyScene, options: RenderOptions, listed: tuple[str, ...], sight: Sight
+        self, scene: AnyScene, options: RenderOptions, listed: tuple[str, ...], shot: Shot
     ) -> Picture:
         """Update the draw list, and return the picture that the passes start with."""
-        view, size = sight.view, sight.size
-        frame_options = self.options.get(scene, options, sight.rows, sight.beyond)
-        frustum = view.clip_from_world if sight.frozen is None else sight.frozen
+        view, size = shot.view, shot.size
+        frame_options = self.options.get(scene, options, shot.rows, shot.beyond)
+        frustum = view.clip_from_world if shot.frozen is None else shot.frozen
         self.draw_list.update(
             scene.data,
             frame_options.listing(listed),
-            frame_options.headlight(sight.headlight),
+            frame_options.headlight(shot.headlight),
             frame_options.placing(frustum, size),
         )
-        picture = Picture(scene, options, frame_options, sight, options.cull)
+        picture = Picture(scene, options, frame_options, shot, options.cull)
         self.draw_list.native.close_apertures()
         if options.cull == "auto":
             self._let_backs_show(picture)
@@ -96,13 +96,11 @@ class Painter:
             picture.depth_range = view.depth_range(scene.bounds)
         return picture
 
-    def radiance(
-        self, scene: AnyScene, options: RenderOptions, sight: Sight
-    ) -> NDArray[np.float32]:
+    def radiance(self, scene: AnyScene, options: RenderOptions, shot: Shot) -> NDArray[np.float32]:
         """Return the radiance of a picture, (height, width, 3)."""
-        plan = self.passes.plan(options, ("radiance",), sight.size)
+        plan = self.passes.plan(options, ("radiance",), shot.size)
         outputs = self._pool.take(plan.outputs)
-        picture = self.look(scene, options, plan.listed, sight)
+        picture = self.look(scene, options, plan.listed, shot)
         picture.targets, picture.arrays = self.passes.arrays(plan, outputs)
         for one in plan.passes:
             one.draw(picture)
@@ -114,7 +112,5 @@ class Painter:
         apertures = self.draw_list.open_apertures(picture.scene.data, picture.view, picture.size)
         picture.shadow_cull = "none" if self.draw_list.has_holes else "back"
         if apertures is None:
-            sight, options = picture.sight, with_both_sides(picture.options)
-            picture.frame_options = self.options.get(
-                picture.scene, options, sight.rows, sight.beyond
-            )
+            shot, options = picture.shot, with_both_sides(picture.options)
+            picture.frame_options = self.options.get(picture.scene, options, shot.rows, shot.beyond)

@@ -27,7 +27,7 @@ from .camera_choice import CameraChoice
 from .draw_list.placement import Placing
 from .frame import Frame
 from .options import OptionKeywords, RenderOptions, shows_options
-from .passes.protocol import Picture, Sight
+from .passes.protocol import Picture, Shot
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -299,8 +299,8 @@ class Renderer(Closed):
         """Update the draw list, and return the picture that the passes start with."""
         view = self._viewpoint.look(scene, camera, *self._size)
         frozen = frustum_of(scene, culling_camera, *self._size)
-        sight = Sight(view, self._size, self.height, view.towards_viewer, frozen)
-        return self._painter.look(scene, options, listed, sight)
+        shot = Shot(view, self._size, self.height, view.towards_viewer, frozen)
+        return self._painter.look(scene, options, listed, shot)
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):

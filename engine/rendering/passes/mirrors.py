@@ -15,7 +15,7 @@ from ..options import RenderOptions, as_mirrored, shows_light
 from .mirror_backgrounds import MirrorBackgrounds
 from .mirror_planes import MirrorFinder, MirrorPlane, slack_of
 from .mirror_views import Reflection, part_of
-from .protocol import MirrorPainter, Pass, Picture, Sight, Tools
+from .protocol import MirrorPainter, Pass, Picture, Shot, Tools
 
 _FINER = 2  # rows and columns in a pixel with multisampling, whose outputs have one sample
 
@@ -30,7 +30,9 @@ class Mirrors(Pass):
         super().__init__(tools)
         self._finder = MirrorFinder(tools.draw_list)
         self._backgrounds = MirrorBackgrounds(tools.is_srgb)
-        self._painters: list[MirrorPainter] = []  # by the mirror's number in the picture
+        # By the mirror's number in the picture: what draws it, and its view with its inputs.
+        self._painters: list[MirrorPainter] = []
+        self._views: dict[int, tuple[tuple[object, ...], Reflection]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
         return options.mode == "lit" and options.mirror_depth > 0 and shows_light(wanted)
@@ -46,8 +48,8 @@ class Mirrors(Pass):
                 continue
             fineness = self.tools.samples[0] * view.scale
             options = as_mirrored(picture.options, fineness)
-            sight = self._sight(picture, view, fineness)
-            radiance = self._painter(len(picture.mirrors)).radiance(scene, options, sight)
+            shot = self._shot(picture, view, fineness)
+            radiance = self._painter(len(picture.mirrors)).radiance(scene, options, shot)
             numbers = (*plane.normal.tolist(), plane.offset)
             place = view.part.left, view.part.top, view.scale
             picture.mirrors.append((numbers, slack, *place, radiance))
@@ -63,13 +65,17 @@ class Mirrors(Pass):
             return None
         is_small = _FINER * max(part.width, part.height) <= MAX_SIZE
         scale = _FINER if multiple and is_small else 1
-        view = Reflection(picture.view, plane, part, samples, scale, bounds)
-        return view if view.is_usable else None
+        made_of = picture.view, plane.normal.tobytes(), plane.offset, part, scale, bounds.tobytes()
+        known = self._views.get(len(picture.mirrors))
+        if known is None or known[0] != made_of:
+            view = Reflection(picture.view, plane, part, samples, scale, bounds)
+            known = self._views[len(picture.mirrors)] = made_of, view
+        return known[1] if known[1].is_usable else None
 
-    def _sight(self, picture: Picture, view: Reflection, fineness: int) -> Sight:
+    def _shot(self, picture: Picture, view: Reflection, fineness: int) -> Shot:
         beyond = self._backgrounds.beyond(picture.scene, picture.options)
-        rows, headlight = picture.sight.rows * fineness, picture.sight.headlight
-        return Sight(view, view.size, rows, headlight, beyond=beyond)
+        rows, headlight = picture.shot.rows * fineness, picture.shot.headlight
+        return Shot(view, view.size, rows, headlight, beyond=beyond)
 
     def _painter(self, number: int) -> MirrorPainter:
         if number == len(self._painters):

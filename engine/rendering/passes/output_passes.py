@@ -72,7 +72,7 @@ def draw_outputs(
         view.eye,
         id(view.camera),
         *picture.depth_range,
-        picture.sight.frozen,
+        picture.shot.frozen,
         view.rays if has_light and picture.frame_options.has_backdrop else None,
         read.get("ambient_visibility"),
         (picture.mirrors or None) if has_light else None,

@@ -25,7 +25,7 @@ from ..draw_list.draw_list import DrawList
 from ..options import RenderOptions
 
 
-class Sight(NamedTuple):
+class Shot(NamedTuple):
     """What a picture is drawn of, and how large."""
 
     view: View
@@ -40,7 +40,7 @@ class MirrorPainter(Protocol):
     """Draws what a mirror reflects, with passes of its own."""
 
     def radiance(
-        self, scene: AnyScene, options: RenderOptions, sight: Sight
+        self, scene: AnyScene, options: RenderOptions, shot: Shot
     ) -> NDArray[np.float32]: ...
 
 
@@ -64,7 +64,7 @@ class Picture:
     scene: AnyScene
     options: RenderOptions
     frame_options: FrameOptions
-    sight: Sight
+    shot: Shot
     shadow_cull: FrameCull  # which faces cast no shadow
     targets: dict[str, np.ndarray] = field(init=False)  # the frame's and other outputs
     arrays: dict[str, np.ndarray] = field(init=False)  # other arrays that passes declare
@@ -76,11 +76,11 @@ class Picture:
 
     @property
     def view(self) -> View:
-        return self.sight.view
+        return self.shot.view
 
     @property
     def size(self) -> tuple[int, int]:
-        return self.sight.size
+        return self.shot.size
 
 
 class Pass:

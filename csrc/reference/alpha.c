@@ -35,13 +35,15 @@ static float centred(float alpha, float cutoff)
 /* R190: the share of a pixel that a surface covers. */
 static float share_of(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const ref_surface *surface)
 {
-    static const float RIGHT[2] = {1.0f, 0.0f}, BELOW[2] = {0.0f, 1.0f};
+    static const ref_other_way RIGHT = {{1.0f, 0.0f}, 0}, BELOW = {{0.0f, 1.0f}, 0}, FINEST = {{0.0f, 0.0f}, 1};
     float cutoff = piece->primitive.material->alpha_cutoff, h = centred(surface->alpha, cutoff);
-    ref_surface right, below;
-    ref_surface_beside(scene, piece, at, RIGHT, &right);
-    ref_surface_beside(scene, piece, at, BELOW, &below);
+    ref_surface right, below, finest;
+    ref_surface_other(scene, piece, at, &RIGHT, &right);
+    ref_surface_other(scene, piece, at, &BELOW, &below);
+    ref_surface_other(scene, piece, at, &FINEST, &finest);
     float x = centred(right.alpha, cutoff) - h, y = centred(below.alpha, cutoff) - h;
-    float least = (float)(surface->alpha_lod < 1024 ? surface->alpha_lod : 1024) * 0x1p-10f;
+    float lost = ref_min(fabsf(centred(finest.alpha, cutoff) - h) * 4.0f, 1.0f);
+    float least = ((float)(surface->alpha_lod < 1024 ? surface->alpha_lod : 1024) * 0x1p-10f) * lost;
     float slope = ref_clamp(sqrtf(x * x + y * y), least, 1.0f);
     if (slope > 0.0f)
         return (h - 0.5f) / slope + 0.5f;

@@ -203,12 +203,13 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     }
 }
 
-void ref_surface_beside(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const float beside[2], ref_surface *out)
+void ref_surface_other(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const ref_other_way *way, ref_surface *out)
 {
+    out->is_finest = way->is_finest;
     out->piece = piece;
     out->casters = &scene->casters;
     out->instance = &scene->instances[piece->primitive.instance];
-    find_weights(scene, out, at, beside);
+    find_weights(scene, out, at, way->beside);
     find_position(scene, out);
     find_lit_position(scene, out);
     find_normal(scene, out);
@@ -222,6 +223,6 @@ void ref_surface_beside(const ref_scene *scene, const ref_piece *piece, const re
 
 void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
 {
-    static const float HERE[2] = {0.0f, 0.0f};
-    ref_surface_beside(scene, piece, at, HERE, out);
+    static const ref_other_way USUAL = {{0.0f, 0.0f}, 0};
+    ref_surface_other(scene, piece, at, &USUAL, out);
 }

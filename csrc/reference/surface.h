@@ -47,6 +47,7 @@ typedef struct ref_surface {
     float uv[2];                                 /* of set 0 */
     float albedo[3], alpha; /* alpha: R80 */
     int32_t alpha_lod;      /* R190: lod of the texture that has alpha */
+    int is_finest;          /* R190: textures are read at level 0 */
     float emissive[3];
     ref_physical physical; /* used if the face's material is physical */
     float visibility;      /* R129: the share of ambient light that arrives */
@@ -63,8 +64,12 @@ static inline float ref_interpolate(const ref_surface *surface, const float corn
 /* With multisampling, R105 applies: the surface is found at the pixel's centre, or at the sample if the piece's corners don't
  * allow that. */
 void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out);
-/* The same so many pixels to the right and below, where the piece may have ended (R190). */
-void ref_surface_beside(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const float beside[2], ref_surface *out);
+/* The same so many pixels to the right and below, where the piece may have ended, or with textures read at level 0 (R190). */
+typedef struct ref_other_way {
+    float beside[2];
+    int is_finest;
+} ref_other_way;
+void ref_surface_other(const ref_scene *scene, const ref_piece *piece, const ref_place *at, const ref_other_way *way, ref_surface *out);
 void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[4]);
 
 /* texture.c */

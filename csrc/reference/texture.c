@@ -244,7 +244,7 @@ float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], floa
 float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at,
                          float out[CHANNELS])
 {
-    if (texture->anisotropy > 1) {
+    if (texture->anisotropy > 1 && !surface->is_finest) {
         probes probes = find_probes(texture, surface, at);
         sample_probes(texture, &probes, at->uv, out);
         return E3D_UNORM15_BLENDED;
@@ -256,6 +256,6 @@ float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *sur
     else if (texture->filter == E3D_BILINEAR)
         sample_bilinear(texture, &texture->levels[0], s, t, out);
     else
-        sample_trilinear(texture, limited(texture, level_of_detail(texture, surface, at)), s, t, out);
+        sample_trilinear(texture, surface->is_finest ? 0 : limited(texture, level_of_detail(texture, surface, at)), s, t, out);
     return unit_of(texture);
 }

@@ -74,6 +74,7 @@ static void shade_primitives(const e3d_steps *steps, int32_t first, int32_t end)
     int32_t surface = 0;
     batch->count = batch->facets = 0;
     batch->pattern = memory->shown.pattern;
+    batch->finest = memory->shown.finest;
     memcpy(batch->beside, memory->shown.beside, sizeof batch->beside);
     for (int32_t p = first; p != end;) {
         stretch s;

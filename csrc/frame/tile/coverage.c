@@ -1,7 +1,8 @@
 /* raster, alpha to coverage: which samples of a pixel the alpha of a masked record leaves (R108, R190).
  * In: the list of pixels that masked records cover. Out: the covers of its entries.
  * An edge is as wide as a pixel, whatever the slope of its alpha, which is the difference to the alphas one pixel to the right and
- * below. Most pixels need no slope, since they are covered wholly or not at all; so the others are listed again. */
+ * below. Where levels lost details, that says less than the alpha itself.
+ * Most pixels need no slope, since they are covered wholly or not at all; so the others are listed again. */
 #include <math.h>
 
 #include "base/limits.h"
@@ -102,13 +103,24 @@ static int find_beside(const e3d_tile_job *job, float right, float below, float 
     return found;
 }
 
+/* Finds the alphas of the list by level 0 of their textures. */
+static int find_finest(const e3d_tile_job *job, float *alpha)
+{
+    e3d_shown *shown = &job->memory->shade.shown;
+    shown->finest = 1;
+    int found = e3d_alpha_shade(job, E3D_SINK_ALPHA_TEST, (e3d_shaded_list){.alpha = alpha});
+    shown->finest = 0;
+    return found;
+}
+
 /* R190: the share of a pixel that is covered. */
 static float share_of(const e3d_tile_job *job, int32_t n, float cutoff)
 {
     const e3d_edges_memory *edges = &job->memory->multisample->edges;
     float h = centred(job->memory->alpha.alpha[n], cutoff);
     float x = centred(edges->right[n], cutoff) - h, y = centred(edges->below[n], cutoff) - h;
-    float least = (float)(edges->lod[n] < MOST_LOD ? edges->lod[n] : MOST_LOD) * (1.0f / MOST_LOD);
+    float lost = fabsf(centred(edges->finest[n], cutoff) - h) * 4.0f;
+    float least = ((float)(edges->lod[n] < MOST_LOD ? edges->lod[n] : MOST_LOD) * (1.0f / MOST_LOD)) * (lost < 1.0f ? lost : 1.0f);
     float slope = sqrtf(x * x + y * y);
     slope = slope > least ? slope : least;
     slope = slope < 1.0f ? slope : 1.0f;
@@ -132,7 +144,8 @@ int e3d_cover_edges(const e3d_tile_job *job)
     const e3d_shade_memory *shade = &job->memory->shade;
     e3d_multisample_memory *memory = job->memory->multisample;
     list_edges(job);
-    if (!find_beside(job, 1.0f, 0.0f, memory->edges.right) || !find_beside(job, 0.0f, 1.0f, memory->edges.below))
+    if (!find_beside(job, 1.0f, 0.0f, memory->edges.right) || !find_beside(job, 0.0f, 1.0f, memory->edges.below) ||
+        !find_finest(job, memory->edges.finest))
         return 0;
     const e3d_visible_primitive *primitives = shade->primitives.data;
     for (int32_t p = 0; p < shade->shown.primitives; p++)

@@ -63,10 +63,10 @@ typedef struct e3d_alpha_memory {
 } e3d_alpha_memory;
 
 /* The entries of a list of pixels whose alphas cover a part of them (R190): their covers, or 0; and in the list that is left of
- * them the levels of their textures, and the alphas to the right and below. */
+ * them the levels of their textures, and the alphas to the right, below, and by level 0. */
 typedef struct e3d_edges_memory {
     int32_t cover[E3D_SHOWN_ROOM], lod[E3D_SHOWN_ROOM];
-    float right[E3D_SHOWN_ROOM], below[E3D_SHOWN_ROOM];
+    float right[E3D_SHOWN_ROOM], below[E3D_SHOWN_ROOM], finest[E3D_SHOWN_ROOM];
 } e3d_edges_memory;
 
 /* Pixels that are averaged, and where they go. */

@@ -213,7 +213,7 @@ static void alpha_texture(e3d_batch *batch, const e3d_surfaces *surfaces, const 
     texture_plan plan;
     const float bases[3] = {base, base, base};
     texture_begin(&plan, view, bases);
-    if (view->anisotropy > 1) {
+    if (view->anisotropy > 1 && !batch->finest) {
         const probe_source from = probes_from(batch, surfaces, surfaces->slope, batch->uv[0], batch->uv[1], view);
         const probe_target to = {plan.scale, NULL, batch->alpha};
         anisotropic_read(&plan, &from, &to);

@@ -205,7 +205,7 @@ static ALWAYS_INLINE void interpolate_vector(e3d_batch *batch, const sample_vect
     if (wanted & E3D_WANT_UV)
         interpolate_into(batch->uv, 2, v->s->uv, &weights, v);
     if (wanted & E3D_WANT_LEVEL)
-        v_storei(batch->lod + v->i, level_of(v->s->slope, &weights, v));
+        v_storei(batch->lod + v->i, batch->finest ? v_seti(0) : level_of(v->s->slope, &weights, v));
     if (wanted & E3D_WANT_POSITION)
         interpolate_into(wanted & E3D_WANT_FACET ? batch->place : batch->position, 3, v->s->position, &weights, v);
     if (wanted & E3D_WANT_FACET)

@@ -93,6 +93,7 @@ typedef struct e3d_batch {
     int32_t number[E3D_BATCH + E3D_PAD];   /* the sample of the pattern that replaces the centre, if that can't be used */
     e3d_lane_array shift[2];               /* the offset from the centre in samples */
     float beside[2];                       /* how much is added to that (R190) */
+    int finest;                            /* not 0: textures are read at level 0, once (R190) */
 } e3d_batch;
 
 /* The samples of a batch in mirrors. */

@@ -135,7 +135,7 @@ static ALWAYS_INLINE void stage_maps(e3d_batch *batch, const sample_vector *v, c
     for (int p = 0; p < textures->place_count; p++) {
         interpolate_into(stage->out->uv[p], 2, m->uv[p], &weights, v);
         if (textures->places[p].has_level)
-            v_storei(stage->out->lod[p] + v->i, level_of(m->slope[p], &weights, v));
+            v_storei(stage->out->lod[p] + v->i, batch->finest ? v_seti(0) : level_of(m->slope[p], &weights, v));
     }
     if (textures->tangent_place >= 0)
         slot_tangent(batch, m, &weights, v, stage->out);
@@ -207,7 +207,7 @@ static void kernel_read_textures(e3d_batch *batch, const e3d_surfaces *surfaces,
     each_vector(batch, surfaces, stage_maps, &stage);
     for (int k = 0; k < textures->count; k++) {
         int is_found = k && textures_are_alike(&textures->read[k - 1], &textures->read[k]);
-        if (textures->read[k].view->anisotropy > 1)
+        if (textures->read[k].view->anisotropy > 1 && !batch->finest)
             slot_anisotropic(&plan, &textures->read[k], batch, &stage, surfaces, out->texel[k]);
         else
             slot_texture(&plan, &textures->read[k], is_found, batch->count, out, out->texel[k]);

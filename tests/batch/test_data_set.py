@@ -7,10 +7,10 @@ from engine3d.batch import read_manifest, run
 
 FOLDER = Path(__file__).parents[2] / "benchmarks" / "data_set"
 FIRST = {
-    "000000.png": "8b6618f7459b23b1",
-    "000001.png": "7ce7b61c1daf1345",
-    "000002.png": "493af268beff1aad",
-    "000003.png": "5044af71f63d04b0",
+    "000000.png": "82c6dce6e8ae1244",
+    "000001.png": "30faa2b634e03095",
+    "000002.png": "bb02e423d8ac9543",
+    "000003.png": "af6bb30df5be839a",
 }
 
 

@@ -42,7 +42,7 @@ static float share_of(const ref_scene *scene, const ref_piece *piece, const ref_
     ref_surface_other(scene, piece, at, &BELOW, &below);
     ref_surface_other(scene, piece, at, &FINEST, &finest);
     float x = centred(right.alpha, cutoff) - h, y = centred(below.alpha, cutoff) - h;
-    float lost = ref_min(fabsf(centred(finest.alpha, cutoff) - h) * 4.0f, 1.0f);
+    float lost = ref_min(fabsf(centred(finest.alpha, cutoff) - h) * 8.0f, 1.0f);
     float least = ((float)(surface->alpha_lod < 1024 ? surface->alpha_lod : 1024) * 0x1p-10f) * lost;
     float slope = ref_clamp(sqrtf(x * x + y * y), least, 1.0f);
     if (slope > 0.0f)

@@ -58,7 +58,7 @@ def random_batches(rng):
     """
     batches = Records(BATCH_RECORD, BATCHES)
     fields = batches.fields
-    fields["pattern"] = 0
+    fields["pattern"] = fields["finest"] = 0
     fields["count"] = every_count(rng, BATCH, BATCHES)
     rate = rng.choice([1, 1 / 2, 1 / 7, 1 / 20, 1 / 100], (BATCHES, 1))
     step = rng.random((BATCHES, LANES)) < rate

@@ -119,7 +119,7 @@ static float share_of(const e3d_tile_job *job, int32_t n, float cutoff)
     const e3d_edges_memory *edges = &job->memory->multisample->edges;
     float h = centred(job->memory->alpha.alpha[n], cutoff);
     float x = centred(edges->right[n], cutoff) - h, y = centred(edges->below[n], cutoff) - h;
-    float lost = fabsf(centred(edges->finest[n], cutoff) - h) * 4.0f;
+    float lost = fabsf(centred(edges->finest[n], cutoff) - h) * 8.0f;
     float least = ((float)(edges->lod[n] < MOST_LOD ? edges->lod[n] : MOST_LOD) * (1.0f / MOST_LOD)) * (lost < 1.0f ? lost : 1.0f);
     float slope = sqrtf(x * x + y * y);
     slope = slope > least ? slope : least;

@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 from ..base.calls import refuse_unknown
 from ..base.numbers import shown
-from ..base.validation import choose, flag, is_one_of, not_negative
+from ..base.validation import choose, flag, not_negative
 from ..choices import Backdrop, ColorLike, LightSetup, LightShadow, LookName, ToneMapping
 from ..errors import InvalidArgumentError
 from ..model.environments.environment import Environment
@@ -76,7 +76,9 @@ class Look:
         not_negative(self.light_intensity, "light_intensity")
         choose(self.tone_mapping, _TONE_MAPPINGS, "tone_mapping")
         choose(self.shadow, get_args(LightShadow), "shadow")
-        if not is_one_of(self.feature_edges, ("auto",)):
+        if isinstance(self.feature_edges, str):
+            choose(self.feature_edges, ("auto",), "feature_edges")
+        else:
             flag(self.feature_edges, "feature_edges")
         for name in ("ground", "environment", "ambient_occlusion"):
             flag(getattr(self, name), name)

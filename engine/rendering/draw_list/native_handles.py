@@ -100,9 +100,9 @@ def native_texture(
     natives = _textures.setdefault(texture, {})
     known = natives.get(key)
     if known is None or known[0][0] is not pixels or known[0][1:] != sampling:
-        filter, sides, *level = sampling
-        wraps = (WRAPS[name] for name in sides)
-        native = NativeTexture(pixels, decode, FILTERS[filter], *wraps, *level, holds_normals)
+        wrap_u, wrap_v = (WRAPS[name] for name in texture.side_wraps)
+        sides = FILTERS[texture.filter], wrap_u, wrap_v
+        native = NativeTexture(pixels, decode, *sides, *read, holds_normals)
         known = natives[key] = (pixels, *sampling), native
     return known[1]
 

@@ -64,9 +64,12 @@ static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child);
 /* The lock is held. */
 static void note_leaving(int64_t now)
 {
-    int last = now > pool.left[0];
-    pool.left[1] = last ? pool.left[0] : now > pool.left[1] ? now : pool.left[1];
-    pool.left[0] = last ? now : pool.left[0];
+    if (now > pool.left[0]) {
+        pool.left[1] = pool.left[0];
+        pool.left[0] = now;
+    } else if (now > pool.left[1]) {
+        pool.left[1] = now;
+    }
 }
 
 enum { WAKING_NS = 30000 }; /* about the time that a thread takes to wake up */

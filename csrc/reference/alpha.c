@@ -38,6 +38,8 @@ static float share_of(const ref_scene *scene, const ref_piece *piece, const ref_
     static const ref_other_way RIGHT = {{1.0f, 0.0f}, 0}, BELOW = {{0.0f, 1.0f}, 0}, FINEST = {{0.0f, 0.0f}, 1};
     float cutoff = piece->primitive.material->alpha_cutoff, h = centred(surface->alpha, cutoff);
     ref_surface right, below, finest;
+    if (!(h > 0.0f && h < 1.0f))
+        return surface->alpha >= cutoff ? 1.0f : 0.0f;
     ref_surface_other(scene, piece, at, &RIGHT, &right);
     ref_surface_other(scene, piece, at, &BELOW, &below);
     ref_surface_other(scene, piece, at, &FINEST, &finest);

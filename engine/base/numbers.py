@@ -44,6 +44,14 @@ def as_array(value: Any, what: str) -> NDArray[Any]:
         raise InvalidArgumentError(f"{what} is not an array: {error}") from None
 
 
+def count_not_finite(rows: NDArray[np.float32]) -> int:
+    """Return how many rows hold a number that is not finite; quick if none does."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        if math.isfinite(np.add.reduce(rows.reshape(-1))):
+            return 0
+    return int((~np.isfinite(rows)).any(axis=1).sum())  # or too large to sum
+
+
 def floats(value: Any, what: str) -> NDArray[np.float64]:
     """Return a float64 copy of numbers, C-contiguous."""
     kind = value.__class__

@@ -180,8 +180,7 @@ class Staging:
         reflects = look.environment and not self._is_lit_scene
         self.settings.surroundings.put(scene, UP_DIRECTIONS[self.up] if reflects else None)
         if viewed.themed:
-            shows_numbers = viewed.bar is not None or viewed.coloring is not None
-            scene.finish_materials(finish_for(look, scene, shows_numbers))
+            scene.finish_materials(finish_for(look, scene, viewed.shows_numbers))
 
     def _await_theme(self) -> None:
         """Let the next frame choose the theme, if the look leaves it open."""
@@ -299,11 +298,9 @@ class Staging:
             self._studio.show_shadow(False)
         if self._edges is not None:
             self._edges.show(False)
-        self.alone = None if self.settings.keeps_theme else draw_alone(view)
-        if self.alone is None:
-            self.theme = self.theme
-        else:
-            self.theme = theme_for(self.alone, has_faces(self.viewed.scene))
+        self.alone = alone = None if self.settings.keeps_theme else draw_alone(view)
+        chosen = None if alone is None else theme_for(alone, has_faces(self.viewed.scene))
+        self.theme = chosen or self.theme
 
     @property
     def _has_ground(self) -> bool:

@@ -140,6 +140,11 @@ class ViewedScene:
         """Points that bound the moving scene, (N, 3) in world space; None if it is to be seen."""
         return self.focus if self.swept is None else self.swept
 
+    @property
+    def shows_numbers(self) -> bool:
+        """Whether colours stand for numbers."""
+        return self.bar is not None or self.coloring is not None
+
     def forget_bounds(self) -> None:
         """Measure the bounds anew when they are used next."""
         self.__dict__.pop("bounds", None)

@@ -12,10 +12,7 @@ int32_t e3d_shadow_ranges_side(int32_t size) { return (size + BLOCK - 1) / BLOCK
 
 static int16_t code_of(float depth)
 {
-    float scaled = depth * E3D_SHADOW_CODE_SCALE, limit = E3D_SHADOW_CODE_LIMIT;
-    scaled = scaled > -limit ? scaled : -limit; /* so is a NaN */
-    int32_t code = (int32_t)(scaled < limit ? scaled : limit);
-    return (int16_t)(depth == depth ? code : E3D_SHADOW_CODE_NONE);
+    return depth == depth ? e3d_shadow_code(depth) : E3D_SHADOW_CODE_NONE;
 }
 
 static void find_codes(const float *depths, int32_t count, int16_t *codes)

@@ -8,13 +8,6 @@
 
 #include "data/shadow_maps/shadow_ranges.h"
 
-static int16_t code_of(float depth)
-{
-    float scaled = depth * E3D_SHADOW_CODE_SCALE, limit = E3D_SHADOW_CODE_LIMIT;
-    scaled = scaled > -limit ? scaled : -limit; /* so is a NaN, which hides no light */
-    return (int16_t)(int32_t)(scaled < limit ? scaled : limit);
-}
-
 /* The least code of each block. */
 static void find_blocks(const float *depths, int32_t size, int32_t side, int16_t *blocks)
 {
@@ -22,7 +15,7 @@ static void find_blocks(const float *depths, int32_t size, int32_t side, int16_t
         blocks[i] = E3D_SHADOW_CODE_LIMIT;
     for (int32_t row = 0; row < size; row++)
         for (int32_t column = 0; column < size; column++) {
-            int16_t code = code_of(depths[(size_t)row * (size_t)size + (size_t)column]);
+            int16_t code = e3d_shadow_code(depths[(size_t)row * (size_t)size + (size_t)column]);
             int16_t *block = &blocks[(row >> E3D_SHADOW_BLOCK_SHIFT) * side + (column >> E3D_SHADOW_BLOCK_SHIFT)];
             *block = code < *block ? code : *block;
         }

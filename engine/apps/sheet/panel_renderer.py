@@ -103,8 +103,7 @@ class PanelRenderer:
         look, first = self._look, self._look.lights or NO_LIGHTS
         self.staged.read_textures(self._settings.filtering)
         self._settings.surroundings.put(self.staged, self.up if look.environment else None)
-        shows_numbers = self._viewed.bar is not None or self._viewed.coloring is not None
-        self.staged.finish_materials(finish_for(look, self.staged, shows_numbers))
+        self.staged.finish_materials(finish_for(look, self.staged, self._viewed.shows_numbers))
         self.staged.fog = None
         ambient, around = light_around(look, self.staged)
         self._lighting = Lighting(self.staged, self.up, look.light_intensity * around, first)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...base.numbers import count_not_finite
 from .documents import Document
 
 if TYPE_CHECKING:
@@ -27,19 +28,13 @@ def extent_warnings(document: Document) -> list[str]:
 
 def _broken(document: Document) -> list[str]:
     meshes = {id(one.mesh): one.mesh.positions for one in document.objects}.values()
-    broken = sum(_count_broken(positions) for positions in meshes)
+    broken = sum(map(count_not_finite, meshes))
     if not broken:
         return []
     return [
         f"{broken} of {sum(map(len, meshes))} vertices have coordinates that are not finite: what "
         "uses them is not drawn"
     ]
-
-
-def _count_broken(positions: np.ndarray) -> int:
-    if np.isfinite(np.add.reduce(positions.reshape(-1))):
-        return 0
-    return int((~np.isfinite(positions)).any(axis=1).sum())
 
 
 def _coarse(document: Document) -> list[str]:

@@ -6,7 +6,6 @@ writable memory, or an `InvalidArgumentError` that names the fault.
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Callable, Mapping
 from types import FrameType
@@ -15,7 +14,7 @@ from typing import Any, Generic, TypeVar, overload
 import numpy as np
 
 from ..._native.loaders import frozen, is_frozen
-from ...base.numbers import as_array
+from ...base.numbers import as_array, count_not_finite
 from ...errors import InvalidArgumentError, warn
 from ..materials.colors import eight_bit_or_linear
 from ..materials.linear_colors import marked
@@ -67,12 +66,9 @@ def check_positions(value: Any, what: str) -> np.ndarray:
     """Return (N, 3) float32; warn of non-finite values, unless a loader calls."""
     array = check_vectors3(value, what)
     if array is not value:
-        with np.errstate(over="ignore", invalid="ignore"):
-            suspicious = not math.isfinite(np.add.reduce(array.reshape(-1)))
-        if suspicious:  # or too large to sum
-            broken = int((~np.isfinite(array)).any(axis=1).sum())
-            if broken and not _is_loading():
-                warn(f"{broken} of {len(array)} {what} are not finite: what uses them is not drawn")
+        broken = count_not_finite(array)
+        if broken and not _is_loading():
+            warn(f"{broken} of {len(array)} {what} are not finite: what uses them is not drawn")
     return array
 
 

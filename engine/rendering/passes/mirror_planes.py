@@ -6,7 +6,6 @@ each with the rectangles around its faces (docs/exactness, R214).
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
@@ -17,7 +16,7 @@ from numpy.typing import NDArray
 from ..._native.scene_graph import SHOWN
 from ...base import linalg
 from ...choices import FrameCull
-from ...errors import Engine3DWarning
+from ...errors import warn
 from ...model.geometry.mesh import Mesh
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.node_arrays import matrices_of
@@ -196,7 +195,7 @@ class MirrorFinder:
     def _warn(self, words: str) -> None:
         if words not in self._warned:
             self._warned.add(words)
-            warnings.warn(words, Engine3DWarning, stacklevel=2)
+            warn(words)
 
 
 def _shows_backs(cull: FrameCull, is_closed: bool) -> bool:

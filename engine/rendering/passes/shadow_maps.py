@@ -135,10 +135,11 @@ class ShadowMaps(Pass):
         cull = CULLS[picture.shadow_cull]
         arrays = scene.data.arrays
         moment = arrays, arrays.updated, draw_list.renewals, cull
+        bounds = scene.data.shadow_bounds()
         seen = [
             (number, light, pose, views)
             for number, light, pose in lights
-            if (views := self._views_of(number, light, pose, picture)) is not None
+            if (views := self._views_of(number, light, pose, bounds, picture)) is not None
         ]
         self.tools.memory.add_maps(
             (type(light).__name__, len(views.maps), views.size) for _, light, _, views in seen
@@ -150,25 +151,30 @@ class ShadowMaps(Pass):
         picture.shadow_maps = self._count, self._drawn
 
     def _views_of(
-        self, number: int, light: DirectLight, pose: Where, picture: Picture
+        self,
+        number: int,
+        light: DirectLight,
+        pose: Where,
+        bounds: NDArray[np.float64],
+        picture: Picture,
     ) -> ShadowViews | None:
         """Return the views of a light's maps; reused if no input changed."""
-        bounds, layout = picture.scene.data.shadow_bounds(), LIGHT_TRAITS[light.kind].maps
         sight: Sight | None = None
         seen_by: tuple[object, ...] = ()
         if isinstance(light, DirectionalLight):
-            sight = self._sight_of(light.shadow_cascades, picture)
+            sight = self._sight_of(light.shadow_cascades, bounds, picture)
             seen_by = picture.view, *(one.end for one in sight.slices)
         found_from = light, light.version, pose, bounds.tobytes(), seen_by
         known = self._found.get(number)
         if known is None or known[0] != found_from:
             light.check()
+            layout = LIGHT_TRAITS[light.kind].maps
             known = self._found[number] = found_from, VIEWS[layout](light, pose, bounds, sight)
         return known[1]
 
-    def _sight_of(self, cascades: int, picture: Picture) -> Sight:
+    def _sight_of(self, cascades: int, bounds: NDArray[np.float64], picture: Picture) -> Sight:
         """Return the slices of the camera's view in which something is."""
-        view, bounds = picture.view, picture.scene.data.shadow_bounds()
+        view = picture.view
         cut_from = view, bounds.tobytes()
         known = self._cut.get(cascades)
         if known is None or known[0] != cut_from:

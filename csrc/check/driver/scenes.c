@@ -9,54 +9,10 @@
 #include <stdlib.h>
 
 #include "check/driver/hostile.h"
+#include "check/driver/scene_arrays.h"
 
 enum { MOST_GRID = 9,
        SOUP_TRIANGLES = 80 };
-
-static void *scene_array(scene *s, size_t count, size_t size)
-{
-    void *array = calloc(count, size);
-    if (array == NULL || s->array_count == SCENE_MAX_ARRAYS)
-        abort();
-    s->arrays[s->array_count++] = array;
-    return array;
-}
-
-static float *random_floats(scene *s, random_stream *r, int32_t count, float low, float high)
-{
-    float *values = scene_array(s, (size_t)count, sizeof *values);
-    for (int32_t i = 0; i < count; i++)
-        values[i] = random_float(r, low, high);
-    return values;
-}
-
-/* One number begins them all: thousands of texels would use up a fuzzer's bytes before anything is drawn. */
-static uint8_t *random_bytes(scene *s, random_stream *r, int32_t count)
-{
-    uint8_t *values = scene_array(s, (size_t)count, 1);
-    random_stream own = {.state = random_bits(r)};
-    for (int32_t i = 0; i < count; i++)
-        values[i] = (uint8_t)random_bits(&own);
-    return values;
-}
-
-/* Radiance, which one number begins as well. */
-static float *random_pixels(scene *s, random_stream *r, int32_t count)
-{
-    float *values = scene_array(s, (size_t)count + 1, sizeof *values);
-    random_stream own = {.state = random_bits(r)};
-    for (int32_t i = 0; i < count; i++)
-        values[i] = random_float(&own, 0.0f, 2.0f);
-    return values;
-}
-
-static int32_t *random_indices(scene *s, random_stream *r, int32_t count, int32_t bound)
-{
-    int32_t *values = scene_array(s, (size_t)count, sizeof *values);
-    for (int32_t i = 0; i < count; i++)
-        values[i] = random_below(r, bound);
-    return values;
-}
 
 static void normalize(float *v)
 {
@@ -476,7 +432,7 @@ static void add_mirrors(scene *s, const random_stream *stream)
         mirror->left = whole ? 0 : random_below(r, 40) - 20;
         mirror->top = whole ? 0 : random_below(r, 40) - 20;
         mirror->scale = 1 + random_below(r, 2);
-        mirror->radiance = random_pixels(s, r, 3 * mirror->width * mirror->height * mirror->scale * mirror->scale);
+        mirror->radiance = random_texels(s, r, (size_t)(3 * mirror->width * mirror->height * mirror->scale * mirror->scale), 0.0f, 2.0f);
     }
     frame->mirrors = s->mirrors;
     frame->mirror_count = count;
@@ -524,16 +480,6 @@ static void add_rare_parts(e3d_material *material, random_stream *r)
         p->transmission = hostile_float(r);
     if (!usual)
         p->thickness = hostile_float(r);
-}
-
-/* One number begins all texels, as in random_bytes. */
-static float *random_texels(scene *s, random_stream *r, size_t count, float low, float high)
-{
-    float *values = scene_array(s, count, sizeof *values);
-    random_stream own = {.state = random_bits(r)};
-    for (size_t i = 0; i < count; i++)
-        values[i] = random_float(&own, low, high);
-    return values;
 }
 
 /* A picture behind glass, in which some things are in front of it; its shares are those of surfaces that are tone mapped. */

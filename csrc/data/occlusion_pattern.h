@@ -24,6 +24,7 @@ enum {
 #define E3D_OCCLUSION_LEAST 0x1p-126f
 #define E3D_OCCLUSION_LOOSE 0x1p-3f /* R128: the weight of sites off the surface, which counts where few lie on it */
 #define E3D_OCCLUSION_FALL 0x1p-7f  /* and how fast it falls with their distance, in sites */
+#define E3D_OCCLUSION_WIDEN 0x1p-6f /* R216: from 32 sites of reach on, cells are averaged, in full from 96 on */
 #define E3D_OCCLUSION_REST 0x1p-10f /* R180: the weight of sites off the surface, if there are no others */
 #define E3D_OCCLUSION_MOST 2.0f     /* no share is greater than pi/2: this keeps overflowed sums finite */
 #define E3D_OCCLUSION_UNIT 0x1p-13f /* of the light of sectors, halved */

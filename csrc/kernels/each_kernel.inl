@@ -180,11 +180,14 @@ E3D_KERNEL(void, stream, (const e3d_pixel_rows *rows))
 
 /* Ambient occlusion, of a row of sites: their depths and nearness, from a row of pixels; with the rows above and below, their
  * faces and the shares of light that are hidden; the means of shares over sites to the left and right; those over the nine rows
- * around the middle one; and the visibility of a row of pixels, at the first of two rows of sites or between them. */
+ * around the middle one; the means of these a cell to the left and right, and those a cell above and below; and the visibility
+ * of a row of pixels, at the first of two rows of sites or between them. */
 E3D_KERNEL(void, occlusion_sites, (const float *depth, int width, int is_perspective, const e3d_occlusion_sites *out))
 E3D_KERNEL(void, occlusion, (const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, int row))
 E3D_KERNEL(void, occlusion_across, (const e3d_occlusion_plan *plan, const e3d_occlusion_sites *row, float *out))
 E3D_KERNEL(void, occlusion_down, (const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, float *out))
+E3D_KERNEL(void, occlusion_wide_across, (const e3d_occlusion_plan *plan, const e3d_occlusion_sites *row, float *out))
+E3D_KERNEL(void, occlusion_wide_down, (const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, float *out))
 E3D_KERNEL(void, occlusion_spread, (const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, const float *depth, int is_below, float *out))
 /* Rows of a bloom (R124). Filters what four rows of radiance have above 1, channel by channel; returns whether there is any. */
 E3D_KERNEL(int, bloom_bright, (const float *const rows[4], int width, float *const planes[3]))

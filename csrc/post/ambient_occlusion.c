@@ -1,4 +1,4 @@
-/* occlusion: finds the ambient occlusion of a picture of depths and normals, band by band of rows (R125-R128, R180).
+/* occlusion: finds the ambient occlusion of a picture of depths and normals, band by band of rows (R125-R128, R180, R216).
  * In: depths, 0 where nothing shows; normals. Out: the share of light from all around that reaches each pixel.
  * Always: the same bytes for any backend and number of threads: a site depends on depths and normals alone, and a pixel on
  * sites that are all found before. */
@@ -18,7 +18,8 @@
 #include "reference/post/ambient_occlusion.h"
 
 enum { BAND = 32, /* a thread takes so many rows of sites at a time */
-       SPAN = E3D_OCCLUSION_SPAN };
+       SPAN = E3D_OCCLUSION_SPAN,
+       FARTHEST = E3D_OCCLUSION_FILTER + E3D_OCCLUSION_CELL }; /* rows from which the filters take something */
 
 /* The rows of sites in scratch memory, of which each array has as many as the picture. */
 typedef enum site_kind { DEPTH = 0,
@@ -27,15 +28,16 @@ typedef enum site_kind { DEPTH = 0,
                          DOWN,
                          FIRM,
                          SHARE,
+                         MEANS,
                          SITE_KINDS } site_kind;
 
-/* A worker's own rows: of pixels, and of sites, which are shorter: zeros, shares before they are filtered, those filtered. */
+/* A worker's own rows: of pixels, and of sites, which are shorter: zeros, shares and means before they are filtered, those filtered. */
 typedef enum own_kind { PIXELS = 0,
                         RESULT,
                         ZEROS,
-                        SHARES,
-                        MEANS,
-                        OTHER_MEANS,
+                        UNFILTERED,
+                        EVEN_ROW,
+                        ODD_ROW,
                         OWN_KINDS } own_kind;
 
 /* The data of all passes over the picture. */
@@ -183,7 +185,7 @@ static void find_shares(const occlusion_job *job, int worker, int32_t first, int
     for (int32_t row = first; row < end; row++) {
         e3d_occlusion_sites rows[3] = {sites_at(job, worker, row - 1), sites_at(job, worker, row), sites_at(job, worker, row + 1)};
         float *means = rows[1].share;
-        rows[1].share = own_row(job, worker, SHARES);
+        rows[1].share = own_row(job, worker, UNFILTERED);
         job->kernels->occlusion(job->plan, rows, row);
         job->some[row] = (uint8_t)has_some(rows[1].share, job->plan->width);
         if (job->some[row])
@@ -202,17 +204,44 @@ static int has_some_in(const occlusion_job *job, int32_t first, int32_t last)
     return 0;
 }
 
-/* The row of sites with its shares filtered down the columns, unless they are known. */
+/* Filters the shares of a band down columns, and the means along rows again, widely. */
+static void find_means(const occlusion_job *job, int worker, int32_t first, int32_t end)
+{
+    for (int32_t row = first; row < end; row++) {
+        e3d_occlusion_sites around[SPAN], here = sites_at(job, worker, row);
+        float *means = kept_row(job, MEANS, row);
+        if (!has_some_in(job, row - E3D_OCCLUSION_FILTER, row + E3D_OCCLUSION_FILTER)) {
+            memset(means, 0, (size_t)job->plan->width * sizeof *means);
+            continue;
+        }
+        for (int k = 0; k < SPAN; k++)
+            around[k] = sites_at(job, worker, row + k - E3D_OCCLUSION_FILTER);
+        here.share = own_row(job, worker, UNFILTERED);
+        job->kernels->occlusion_down(job->plan, around, here.share);
+        job->kernels->occlusion_wide_across(job->plan, &here, means);
+    }
+}
+
+/* A row of sites with its means. */
+static e3d_occlusion_sites means_at(const occlusion_job *job, int worker, int32_t row)
+{
+    e3d_occlusion_sites out = sites_at(job, worker, row);
+    if (row >= 0 && row < job->plan->height)
+        out.share = kept_row(job, MEANS, row);
+    return out;
+}
+
+/* The row of sites with its means filtered widely down the columns, unless they are known. */
 static e3d_occlusion_sites filtered(const occlusion_job *job, int worker, int32_t row, int is_known)
 {
-    e3d_occlusion_sites around[SPAN], out = sites_at(job, worker, row);
+    e3d_occlusion_sites around[3], out = means_at(job, worker, row);
     if (row >= job->plan->height)
         return out;
-    out.share = own_row(job, worker, row % 2 ? MEANS : OTHER_MEANS);
-    for (int k = 0; k < SPAN; k++)
-        around[k] = sites_at(job, worker, row + k - E3D_OCCLUSION_FILTER);
+    out.share = own_row(job, worker, row % 2 ? ODD_ROW : EVEN_ROW);
+    for (int k = 0; k < 3; k++)
+        around[k] = means_at(job, worker, row + (k - 1) * E3D_OCCLUSION_CELL);
     if (!is_known)
-        job->kernels->occlusion_down(job->plan, around, out.share);
+        job->kernels->occlusion_wide_down(job->plan, around, out.share);
     return out;
 }
 
@@ -229,12 +258,12 @@ static void write_row(const occlusion_job *job, int worker, int32_t y, const e3d
         memcpy(row, out, (size_t)width * sizeof *row);
 }
 
-/* Filters a band of rows of sites down the columns, and writes its pixels. */
+/* Filters the means of a band of rows of sites down the columns, and writes its pixels. */
 static void filter(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
     int32_t known = first - 1; /* the last row that is filtered */
     for (int32_t row = first; row < end; row++) {
-        int is_hidden = has_some_in(job, row - E3D_OCCLUSION_FILTER, row + 1 + E3D_OCCLUSION_FILTER);
+        int is_hidden = has_some_in(job, row - FARTHEST, row + 1 + FARTHEST);
         e3d_occlusion_sites rows[2];
         for (int k = 0; k < 2 && is_hidden; k++) {
             rows[k] = filtered(job, worker, row + k, row + k <= known);
@@ -258,6 +287,8 @@ static void find_some_sites(void *job, int worker) { each_band(job, worker, find
 
 static void find_some_shares(void *job, int worker) { each_band(job, worker, find_shares); }
 
+static void find_some_means(void *job, int worker) { each_band(job, worker, find_means); }
+
 static void filter_some(void *job, int worker) { each_band(job, worker, filter); }
 
 /* ---- the entry ---- */
@@ -279,7 +310,7 @@ static int is_valid(const e3d_depth_picture *p, float radius)
 static e3d_status find(const e3d_kernels *kernels, int32_t threads, const e3d_depth_picture *picture, float radius, float *scratch,
                        float *visibility)
 {
-    static void (*const passes[])(void *, int) = {find_some_sites, find_some_shares, filter_some};
+    static void (*const passes[])(void *, int) = {find_some_sites, find_some_shares, find_some_means, filter_some};
     e3d_occlusion_plan plan;
     occlusion_job job = {.kernels = kernels, .plan = &plan, .scratch = scratch, .visibility = visibility};
     fill_plan(picture, radius, scratch, &plan);

@@ -55,7 +55,7 @@ _scene_values = operator.attrgetter(*SCENE_VALUES)
 _MAX_KEPT = 16  # for programs that alternate between pictures
 # Settings that differ if surfaces are drawn without colour.
 _WITHOUT_COLOR = {
-    "mode": _native.MODES["unlit"],  # skips blended surfaces, as in mode lit
+    "mode": _native.MODES["lit"],  # without what is blended or lets light pass
     "wireframe": _native.WIREFRAMES[None],
     "remove_hidden_lines": True,
     "transparent_outputs": False,

@@ -5,7 +5,15 @@ import pytest
 
 from engine3d._native import rasterizer
 
-COVERS = ("occlusion_sites", "occlusion", "occlusion_across", "occlusion_down", "occlusion_spread")
+COVERS = (
+    "occlusion_sites",
+    "occlusion",
+    "occlusion_across",
+    "occlusion_down",
+    "occlusion_wide_across",
+    "occlusion_wide_down",
+    "occlusion_spread",
+)
 BACKENDS = [name for name, k in rasterizer.BACKENDS.items() if rasterizer.backend_available(k)]
 ACROSS, DOWN = (0.011, -0.6), (-0.009, 0.4)
 

@@ -238,6 +238,39 @@ def test_a_scaled_camera_does_not_change_the_radius():
     assert np.abs(scaled.astype(int) - whole).max() <= 3
 
 
+def shelf(**values):
+    """A wall, and small things that stand before it."""
+    scene = white_scene()
+    scene.add(e3d.box((24, 12, 0.1)), translation=(0, 6, -2.5))
+    for x in (-1.8, -0.9, 0.0, 0.9, 1.8):
+        thing = e3d.uv_sphere(0.25 + 0.05 * x)
+        thing.materials = [e3d.Material(metallic=0.0, roughness=0.0, **values)]
+        scene.add(thing, translation=(x, 0.5, -1.0 + 0.3 * x))
+    return scene, (e3d.PerspectiveCamera(0.4), e3d.look_at((0, 1.2, 7), (0, 0.8, 0)))
+
+
+def test_a_wall_far_behind_small_things_is_shaded_smoothly():
+    """The radius is most of the picture, of which each site looks at ten places."""
+    scene, view = shelf()
+    shown = visible(scene, view, (640, 480), radius=3.0).astype(float)
+    around = sum(np.roll(shown, shift, (0, 1)) for shift in ((8, 0), (-8, 0), (0, 8), (0, -8))) / 4
+    above = np.s_[20:200, 20:-20]  # the wall above the things
+    assert shown[above].min() < 200 and np.abs(shown - around)[above].mean() < 0.7
+
+
+def test_what_lets_light_pass_hides_none():
+    scene, view = shelf(transmission=1.0)
+    bare = white_scene()
+    bare.add(e3d.box((24, 12, 0.1)), translation=(0, 6, -2.5))
+    assert set(np.unique(visible(bare, view, radius=3.0))) == {0, 255}
+    with Renderer(SIZE, color_space="linear") as renderer:
+        plain = renderer.render(scene, view).color
+        asked = renderer.render(
+            scene, view, ambient_occlusion=True, ambient_occlusion_radius=3.0
+        ).color
+    assert plain.tobytes() == asked.tobytes()
+
+
 def test_blended_things_and_other_modes_have_none():
     scene = corner()
     plain = render(scene, CAMERAS["perspective"], size=(80, 60), mode="unlit").color

@@ -1,4 +1,4 @@
-/* occlusion: finds for each site how much ambient light near surfaces block, and from sites for each pixel (R125-R128, R180). */
+/* occlusion: finds for each site how much ambient light near surfaces block, and from sites for each pixel (R125-R128, R180, R216). */
 #pragma once
 
 #include "base/always_inline.h"
@@ -160,14 +160,20 @@ static ALWAYS_INLINE occlusion_place occlusion_look(const e3d_occlusion_plan *pl
                              v_asf(v_gatheri(plan->depth, v_addi(v_muli(row, v_seti(plan->pitch)), column)))};
 }
 
+/* The distance in sites within which things count, at most E3D_OCCLUSION_REACH. */
+static ALWAYS_INLINE vf32 occlusion_reach(const e3d_occlusion_plan *plan, vf32 near, int is_perspective)
+{
+    vf32 reach = v_setf(plan->reach);
+    if (is_perspective)
+        reach = v_mul(reach, near);
+    return v_min(v_max(reach, v_setf(0.0f)), v_setf((float)E3D_OCCLUSION_REACH));
+}
+
 /* Looks at all places to one side, before anything is found of them: lookups take long, and don't wait for each other. */
 static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at,
                                                 int side, int is_perspective, occlusion_place out[E3D_OCCLUSION_TAPS])
 {
-    vf32 reach = v_setf(plan->reach);
-    if (is_perspective)
-        reach = v_mul(reach, at->near);
-    reach = v_min(v_max(reach, v_setf(0.0f)), v_setf((float)E3D_OCCLUSION_REACH));
+    vf32 reach = occlusion_reach(plan, at->near, is_perspective);
     for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
         vf32 away = v_add(v_mul(reach, v_loadf(pattern->share[side][tap] + lane)), v_setf(E3D_OCCLUSION_START));
         vf32 step_x = v_mul(away, v_loadf(pattern->step[0] + lane)), step_y = v_mul(away, v_loadf(pattern->step[1] + lane));
@@ -334,6 +340,15 @@ static ALWAYS_INLINE occlusion_site occlusion_site_at(const e3d_occlusion_sites 
     return (occlusion_site){v_loadf(row->near + x), v_loadf(row->change[axis] + x), v_loadf(row->firm + x), v_loadf(row->share + x)};
 }
 
+/* How far, in sites, a site some steps away and this one lie off each other's faces, at most. */
+static ALWAYS_INLINE vf32 occlusion_off(const occlusion_site *here, const occlusion_site *other, vf32 steps)
+{
+    vf32 rise = v_sub(other->near, here->near);
+    vf32 off = v_mul(occlusion_abs(v_sub(rise, v_mul(here->change, steps))), here->firm);
+    vf32 off_other = v_mul(occlusion_abs(v_sub(rise, v_mul(other->change, steps))), other->firm);
+    return v_max(off, off_other);
+}
+
 /* Whether the mean is needed: it is never used if nothing shows in the middle, and is 0 if no site has anything hidden. */
 static ALWAYS_INLINE int occlusion_has_some(const occlusion_site sites[E3D_OCCLUSION_SPAN])
 {
@@ -354,12 +369,10 @@ static ALWAYS_INLINE vf32 occlusion_mean(const occlusion_site sites[E3D_OCCLUSIO
         return zero;
     for (int k = 0; k < E3D_OCCLUSION_SPAN; k++) {
         const occlusion_site *other = &sites[k];
-        vf32 steps = v_setf((float)(k - OCCLUSION_MIDDLE)), rise = v_sub(other->near, here->near);
+        vf32 steps = v_setf((float)(k - OCCLUSION_MIDDLE));
         if (k == OCCLUSION_MIDDLE)
             continue;
-        vf32 off = v_mul(occlusion_abs(v_sub(rise, v_mul(here->change, steps))), here->firm);
-        vf32 off_other = v_mul(occlusion_abs(v_sub(rise, v_mul(other->change, steps))), other->firm);
-        vf32 farther = v_max(off, off_other);
+        vf32 farther = occlusion_off(here, other, steps);
         vf32 rest = v_sub(v_setf(E3D_OCCLUSION_LOOSE), v_mul(farther, v_setf(E3D_OCCLUSION_FALL)));
         vf32 weight = v_max(v_max(v_sub(one, farther), rest), zero);
         if (k == 0 || k == E3D_OCCLUSION_SPAN - 1)
@@ -388,6 +401,47 @@ static void kernel_occlusion_down(const e3d_occlusion_plan *plan, const e3d_occl
         for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
             sites[k] = occlusion_site_at(&rows[k], 1, x);
         v_storef(out + x, occlusion_mean(sites));
+    }
+}
+
+/* ---- the wide filter (R216) ---- */
+
+/* The mean of three means, of sites a cell apart. */
+static ALWAYS_INLINE vf32 occlusion_wide_mean(const e3d_occlusion_plan *plan, const occlusion_site sites[3])
+{
+    const occlusion_site *here = &sites[1];
+    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), sum = here->share, weights = one;
+    vf32 reach = occlusion_reach(plan, here->near, plan->picture->is_perspective);
+    vf32 share = v_mul(v_min(v_max(v_sub(v_mul(reach, v_setf(E3D_OCCLUSION_WIDEN)), v_setf(0.5f)), zero), one), v_setf(0.5f));
+    if (!v_any(v_gt(share, zero)))
+        return sum;
+    for (int k = 0; k < 3; k += 2) {
+        vf32 off = occlusion_off(here, &sites[k], v_setf((float)((k - 1) * E3D_OCCLUSION_CELL)));
+        vf32 weight = v_mul(v_max(v_sub(one, off), zero), share);
+        weight = v_self(v_eq(sites[k].near, zero), zero, weight);
+        sum = v_add(sum, v_mul(weight, sites[k].share));
+        weights = v_add(weights, weight);
+    }
+    return v_div(sum, weights);
+}
+
+static void kernel_occlusion_wide_across(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *row, float *out)
+{
+    occlusion_site sites[3];
+    for (int x = 0; x < plan->width; x += V_LANES) {
+        for (int k = 0; k < 3; k++)
+            sites[k] = occlusion_site_at(row, 0, x + (k - 1) * E3D_OCCLUSION_CELL);
+        v_storef(out + x, occlusion_wide_mean(plan, sites));
+    }
+}
+
+static void kernel_occlusion_wide_down(const e3d_occlusion_plan *plan, const e3d_occlusion_sites *rows, float *out)
+{
+    occlusion_site sites[3];
+    for (int x = 0; x < plan->width; x += V_LANES) {
+        for (int k = 0; k < 3; k++)
+            sites[k] = occlusion_site_at(&rows[k], 1, x);
+        v_storef(out + x, occlusion_wide_mean(plan, sites));
     }
 }
 

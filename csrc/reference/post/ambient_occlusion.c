@@ -1,6 +1,6 @@
 /* Ambient occlusion: from a picture of depths and normals, the share of light from all around that reaches each pixel.
  * In: depths, 0 where nothing shows; normals; the radius within which things count. Out: visibility in [0, 1], one value a
- * pixel. Rules: R125 (places), R126 (surfaces and directions), R127 (shares), R128 (filter), R180 (pixels between sites).
+ * pixel. Rules: R125 (places), R126 (surfaces and directions), R127 (shares), R128 and R216 (filters), R180 (pixels between sites).
  * Sources: Jimenez et al. 2016 (slices through the line of sight, and the integral over one), Therrien et al. 2023 (sectors of
  * a slice as bits, hidden by things of some thickness), Kopf et al. 2007 (pixels between sites). */
 #include "reference/post/ambient_occlusion.h"
@@ -147,11 +147,17 @@ static int look(const sites *all, const site *s, float away, const float step[2]
     return depth != 0.0f;
 }
 
+/* The distance in sites within which things count, at most E3D_OCCLUSION_REACH (R127). */
+static float reach_of(const sites *all, const site *s, float radius)
+{
+    float reach = (radius / fabsf(all->down[0])) * (all->picture->is_perspective ? s->near : 1.0f);
+    return ref_min(ref_max(reach, 0.0f), (float)E3D_OCCLUSION_REACH);
+}
+
 /* The sectors that what shows to one side hides, counted from that side. */
 static uint32_t hidden_on(const sites *all, const site *s, const slice *in, int number, int side, float radius)
 {
-    float reach = (radius / fabsf(all->down[0])) * (all->picture->is_perspective ? s->near : 1.0f);
-    reach = ref_min(ref_max(reach, 0.0f), (float)E3D_OCCLUSION_REACH);
+    float reach = reach_of(all, s, radius);
     float range2 = (radius * radius) * (1.0f - (float)e3d_occlusion_lack(number) * 0x1p-8f);
     float shift = (float)(2 * e3d_occlusion_shift(number, side) + 1) * 0x1p-7f, top = 0.0f;
     float sign = side ? -1.0f : 1.0f, step[2] = {sign * in->step[0], sign * in->step[1]};
@@ -217,6 +223,14 @@ static float share_at(const sites *all, const site *s, float radius)
 
 /* ---- the filter (R128) ---- */
 
+/* How far, in sites, a site some steps along a row (axis 0) or column and this one lie off each other's faces, at most. */
+static float off_by(const site *here, const site *other, int axis, float steps)
+{
+    float off = fabsf((other->near - here->near) - here->change[axis] * steps) * here->firm;
+    float off_other = fabsf((other->near - here->near) - other->change[axis] * steps) * other->firm;
+    return ref_max(off, off_other);
+}
+
 /* The mean over nine sites in a row (axis 0) or column; NULL stands for sites outside the picture. */
 static float mean(const site *const around[SPAN], const float share[SPAN], int axis)
 {
@@ -227,9 +241,7 @@ static float mean(const site *const around[SPAN], const float share[SPAN], int a
         float steps = (float)(k - MIDDLE);
         if (k == MIDDLE || !other || other->near == 0.0f)
             continue;
-        float off = fabsf((other->near - here->near) - here->change[axis] * steps) * here->firm;
-        float off_other = fabsf((other->near - here->near) - other->change[axis] * steps) * other->firm;
-        float farther = ref_max(off, off_other);
+        float farther = off_by(here, other, axis, steps);
         float weight = ref_max(ref_max(1.0f - farther, E3D_OCCLUSION_LOOSE - farther * E3D_OCCLUSION_FALL), 0.0f);
         weight = weight * (k == 0 || k == SPAN - 1 ? 0.5f : 1.0f);
         sum = sum + weight * share[k];
@@ -250,6 +262,29 @@ static float mean_at(const sites *all, int32_t column, int32_t row, const float 
         share[k] = is_inside ? shares[place] : 0.0f;
     }
     return mean(around, share, axis);
+}
+
+/* ---- the wide filter (R216) ---- */
+
+/* The mean over a site and those a cell away along a row (axis 0) or column. */
+static float wide_mean_at(const sites *all, int32_t column, int32_t row, const float *means, int axis, float radius)
+{
+    const site *here = &all->at[(size_t)row * (size_t)all->width + (size_t)column];
+    float share = ref_min(ref_max(reach_of(all, here, radius) * E3D_OCCLUSION_WIDEN - 0.5f, 0.0f), 1.0f) * 0.5f;
+    float sum = means[here - all->at], weights = 1.0f;
+    for (int side = -1; side <= 1; side += 2) {
+        int32_t i = column + (axis == 0 ? side * E3D_OCCLUSION_CELL : 0), j = row + (axis == 1 ? side * E3D_OCCLUSION_CELL : 0);
+        if (i < 0 || i >= all->width || j < 0 || j >= all->height)
+            continue;
+        const site *other = &all->at[(size_t)j * (size_t)all->width + (size_t)i];
+        float steps = (float)(side * E3D_OCCLUSION_CELL);
+        float weight = ref_max(1.0f - off_by(here, other, axis, steps), 0.0f) * share;
+        if (other->near == 0.0f)
+            continue;
+        sum = sum + weight * means[other - all->at];
+        weights = weights + weight;
+    }
+    return sum / weights;
 }
 
 /* ---- pixels (R180) ---- */
@@ -287,6 +322,14 @@ static void filter(const sites *all, const float *shares, float *means, int axis
             means[(size_t)j * (size_t)all->width + (size_t)i] = mean_at(all, i, j, shares, axis);
 }
 
+/* Finds the means of means along rows, or down columns. */
+static void filter_wide(const sites *all, const float *means, float *out, int axis, float radius)
+{
+    for (int32_t j = 0; j < all->height; j++)
+        for (int32_t i = 0; i < all->width; i++)
+            out[(size_t)j * (size_t)all->width + (size_t)i] = wide_mean_at(all, i, j, means, axis, radius);
+}
+
 /* Not inlined, so that no arithmetic moves out of the floating-point environment. */
 __attribute__((noinline)) static void find(sites *all, float radius, float *visibility)
 {
@@ -304,6 +347,8 @@ __attribute__((noinline)) static void find(sites *all, float radius, float *visi
     filter(all, all->share, all->means, 0);
     memcpy(all->share, all->means, (size_t)all->width * (size_t)all->height * sizeof *all->share);
     filter(all, all->share, all->means, 1);
+    filter_wide(all, all->means, all->share, 0, radius);
+    filter_wide(all, all->share, all->means, 1, radius);
     for (int32_t y = 0; y < p->height; y++)
         for (int32_t x = 0; x < p->width; x++)
             visibility[(size_t)y * (size_t)p->width + (size_t)x] = visibility_at(all, x, y);

@@ -127,8 +127,8 @@ def engine_poses(days):
     nodes["sun ball"] = scene.add(parent=sun)
     orbit = scene.add(parent=sun, euler=(0, full * days / 365.25, 0))
     earth = scene.add(parent=orbit, translation=(3.2, 0, 0))
-    nodes["earth ball"] = scene.add(parent=earth, euler=(0, full * days, 0), scale=0.45)
-    moon_orbit = scene.add(parent=earth, euler=(0, full * days / 27.3, 0))
+    nodes["earth ball"] = scene.add(parent=earth, euler=(0, full * (days % 1.0), 0), scale=0.45)
+    moon_orbit = scene.add(parent=earth, euler=(0, full * (days / 27.3 % 1.0), 0))
     nodes["moon"] = scene.add(parent=moon_orbit, translation=(0.9, 0, 0), scale=0.16)
     return {name: node.world_pose for name, node in nodes.items()}
 

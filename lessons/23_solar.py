@@ -95,8 +95,8 @@ def seek(system, days):
     """Put everything where it is on a day."""
     full = 2 * 3.141592653589793
     system["earth orbit"].set(turn=full * days / 365.25)
-    system["earth ball"].set(turn=full * days)
-    system["moon orbit"].set(turn=full * days / 27.3)
+    system["earth ball"].set(turn=full * (days % 1.0))
+    system["moon orbit"].set(turn=full * (days / 27.3 % 1.0))
 
 
 BALLS = {

@@ -64,10 +64,10 @@ static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_a
             pixels[4 * at[i] + k] = finite[k][i];
 }
 
-/* Applies rows of view_from_world to positions (w = 1) or directions (w = 0). */
-static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane_array *v, int w, e3d_lane_array out[3])
+/* Applies rows of view_from_world, from `row` on, to positions (w = 1) or directions (w = 0). */
+static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane_array *v, int w, int row, e3d_lane_array out[3])
 {
-    for (int row = 0; row < 3; row++) {
+    for (; row < 3; row++) {
         const float *m = view->rows + 4 * row;
         for (int i = 0; i < batch->count; i++) {
             float sum = (m[0] * v[0][i] + m[1] * v[1][i]) + m[2] * v[2][i];
@@ -83,11 +83,11 @@ static void put_view(const batch_place *place)
     const e3d_targets *t = place->store->pass->targets;
     e3d_lane_array v[3];
     if (t->normal) {
-        to_view(view, batch, batch->normal, 0, v);
+        to_view(view, batch, batch->normal, 0, 0, v);
         put(place, E3D_OUTPUT_NORMAL, v);
     }
     if (t->position || t->depth) {
-        to_view(view, batch, e3d_batch_places(batch), 1, v);
+        to_view(view, batch, e3d_batch_places(batch), 1, t->position ? 0 : 2, v);
         put(place, E3D_OUTPUT_POSITION, v);
         for (int i = 0; i < batch->count; i++)
             v[2][i] = 0.0f - v[2][i];
@@ -125,7 +125,7 @@ static void put_textures(const batch_place *place, const e3d_bucket *bucket, e3d
     put(place, E3D_OUTPUT_EMISSIVE, textures->emissive);
     if (t->tangent) {
         e3d_lane_array v[4];
-        to_view(place->store->pass->view, place->batch, textures->tangent, 0, v);
+        to_view(place->store->pass->view, place->batch, textures->tangent, 0, 0, v);
         memcpy(v[3], textures->tangent[3], sizeof v[3]);
         put(place, E3D_OUTPUT_TANGENT, v);
     }

@@ -70,11 +70,13 @@ void e3d_outputs_again(const e3d_store *store, const e3d_tile *tile, e3d_store_m
     }
 }
 
-/* Inlined, so that the compiler makes vectors of neighbouring samples. */
-static ALWAYS_INLINE void put_row(const float *z, const int32_t *id, int axis, int count, float *out)
+/* Inlined, and all depths are read, so that the compiler makes vectors of neighbouring samples. */
+static ALWAYS_INLINE void put_row(const float *restrict z, const int32_t *restrict id, int axis, int count, float *restrict out)
 {
-    for (int x = 0; x < count; x++)
-        out[x] = id[x * axis] >= 0 ? z[x * axis] : INFINITY;
+    for (int x = 0; x < count; x++) {
+        float depth = z[x * axis];
+        out[x] = id[x * axis] >= 0 ? depth : INFINITY;
+    }
 }
 
 static void put_ndc_depth(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory)

@@ -9,6 +9,7 @@ rounded values. Sources for cascades: Zhang et al. 2006 (parallel-split shadow m
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -207,20 +208,37 @@ def sight_of(view: View, bounds: NDArray[np.float64], count: int) -> Sight:
 
 def _slices(view: View, depths: list[tuple[float, float]]) -> list[Slice]:
     """Return the camera's view between pairs of depths."""
-    view_from_clip = linalg.inverse(view.projection).tolist()
-    corners = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
-    lines = [[_unproject(view_from_clip, x, y, z) for z in (-1.0, 0.0)] for x, y in corners]
     world_from_view = linalg.inverse(view.view_from_world).tolist()[:3]
     found = []
-    for start, end in depths:
-        points = [_at_depth(line, depth) for depth in (start, end) for line in lines]
-        middle, radius = _sphere(points)
+    for end, points, middle, radius in _parts(view.projection.tobytes(), tuple(depths)):
         world, *around = (
             tuple(dot(row[:3], at) + row[3] for row in world_from_view) for at in (middle, *points)
         )
         sides = list(zip(*around, strict=True))
         box = np.array([[min(side) for side in sides], [max(side) for side in sides]])
         found.append(Slice(end, 2.0 * radius, world, box))
+    return found
+
+
+class _Part(NamedTuple):
+    """A slice in view space: its farther depth, its corners, and a sphere around them."""
+
+    end: float
+    corners: list[list[float]]
+    middle: list[float]
+    radius: float
+
+
+@functools.lru_cache(16)
+def _parts(projection: bytes, depths: tuple[tuple[float, float], ...]) -> list[_Part]:
+    """Return what a projection shows between pairs of depths, wherever the camera is."""
+    view_from_clip = linalg.inverse(np.frombuffer(projection).reshape(4, 4)).tolist()
+    places = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
+    lines = [[_unproject(view_from_clip, x, y, z) for z in (-1.0, 0.0)] for x, y in places]
+    found = []
+    for start, end in depths:
+        corners = [_at_depth(line, depth) for depth in (start, end) for line in lines]
+        found.append(_Part(end, corners, *_sphere(corners)))
     return found
 
 

@@ -64,6 +64,10 @@ typedef struct e3d_totals {
 } e3d_totals;
 e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count);
 
+/* Lists the nodes that show and cast shadows, with rows->casting: slot, object and version of each, (count, 3). They are equal as
+ * long as the same nodes cast shadows from the same places. selection: as below; versions: of the world poses. Returns how many. */
+int32_t e3d_graph_casters(const e3d_node_rows *rows, const uint64_t *selection, const uint32_t *versions, int32_t *found);
+
 /* Lists the draws of the nodes that show, in the order of slots: objects[number] with the node's ID and world pose. selection: a
  * bit a slot, or NULL for all; view: NULL draws all instances; merge: the nodes of one mesh share a draw. Returns 0 when memory
  * is out. */

@@ -236,21 +236,41 @@ static e3d_merged_draw *merged_draw_of(const e3d_draw_list *list, const e3d_node
     return &list->merged[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
 }
 
+/* The next slot whose bit is set, from `slot` on; `count` if there is none. */
+static int32_t next_selected(const uint64_t *selection, int32_t slot, int32_t count)
+{
+    while (selection && slot < count) {
+        uint64_t left = selection[slot >> 6] >> (slot & 63);
+        if (left)
+            return slot + __builtin_ctzll(left) < count ? slot + __builtin_ctzll(left) : count;
+        slot = (slot | 63) + 1;
+    }
+    return slot;
+}
+
+int32_t e3d_graph_casters(const e3d_node_rows *rows, const uint64_t *selection, const uint32_t *versions, int32_t *found)
+{
+    int32_t count = 0;
+    for (int32_t slot = next_selected(selection, 0, rows->count); slot < rows->count;
+         slot = next_selected(selection, slot + 1, rows->count)) {
+        if (!(rows->flags[slot] & E3D_NODE_SHOWN) || rows->object[slot] < 0 || casts_none(rows, slot))
+            continue;
+        const int32_t state[3] = {slot, rows->object[slot], (int32_t)versions[slot]};
+        memcpy(found + 3 * (size_t)count++, state, sizeof state);
+    }
+    return count;
+}
+
 /* Lists the slots that draw anything, and counts them for each merged draw. */
 static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
                        const e3d_placed *objects, int32_t object_count)
 {
-    for (int32_t slot = 0; slot < rows->count; slot++) {
-        if (selection && !(selection[slot >> 6] >> (slot & 63) & 1)) {
-            if (!(selection[slot >> 6] >> (slot & 63)))
-                slot |= 63; /* none are left in this word */
-            continue;
-        }
+    for (int32_t slot = next_selected(selection, 0, rows->count); slot < rows->count;
+         slot = next_selected(selection, slot + 1, rows->count))
         if (draws_at(rows, slot, objects, object_count) && !casts_none(rows, slot)) {
             list->slots[list->nodes++] = slot;
             merged_draw_of(list, rows, slot)->nodes += !spared_lights(rows, slot);
         }
-    }
 }
 
 int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,

@@ -45,6 +45,26 @@ cdef int set_rows(e3d_node_rows *rows, int32_t count, dict columns, const uint64
     return 0
 
 
+def find_casters(
+    int32_t count, dict columns not None, const uint64_t[::1] selection, int32_t[:, ::1] found not None
+) -> int:
+    """Write slot, object and version of each node that shows and casts shadows; return how many there are.
+
+    Of all nodes, or of those whose bit is set in a selection.
+    """
+    cdef e3d_node_rows rows
+    cdef const uint32_t[::1] versions = columns["world_version"]
+    cdef const uint64_t *bits = NULL
+    set_rows(&rows, count, columns, selection)
+    require(min(versions.shape[0], found.shape[0]) >= count and found.shape[1] == 3, "found must be (nodes, 3)")
+    if not count:
+        return 0
+    if selection is not None:
+        bits = &selection[0]
+    rows.casting = True
+    return e3d_graph_casters(&rows, bits, &versions[0], &found[0, 0])
+
+
 cdef class NativeDrawList:
     """What a frame draws: objects, drawn wherever nodes place them, materials and lights.
 

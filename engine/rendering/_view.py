@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native.scene_graph import camera_view
 from ..base import linalg
+from ..base.linalg import single
 from ..base.linalg.vectors import as_vectors
 from ..errors import InvalidArgumentError
 from ..model.scene.cameras import Camera, far_depth
@@ -77,11 +78,12 @@ class View:
     def pixels_at(self, depth: float) -> float:
         """Return how many pixels a world unit spans at a metric depth, up and down or across."""
         _, _, width, height = self._lens
-        most = max(abs(self.projection[0, 0]) * width, abs(self.projection[1, 1]) * height) / 2.0
-        most *= float(linalg.length(self.view_from_world[2, :3]))
+        x, y = abs(float(self.projection[0, 0])), abs(float(self.projection[1, 1]))
+        back = self.view_from_world[2, :3].tolist()
+        most = max(x * width, y * height) / 2.0 * single.length(back)
         if self.eye[3] == 0.0:
-            return float(most)
-        return float(most) / depth if depth > 0.0 else math.inf
+            return most
+        return most / depth if depth > 0.0 else math.inf
 
     def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
         """Return whether the view still has this camera, pose and image."""
@@ -104,11 +106,10 @@ class View:
 
     def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
         """Return the range of metric depths of a world box, clipped to the camera's range."""
-        center = (bounds[0] + bounds[1]) * 0.5
-        half = (bounds[1] - bounds[0]) * 0.5
-        row = self.view_from_world[2]
-        middle = -(float(linalg.dot(row[:3], center)) + float(row[3]))
-        reach = float(linalg.dot(np.abs(row[:3]), half))
+        sides = list(zip(*bounds.tolist(), strict=True))
+        *row, rise = self.view_from_world[2].tolist()
+        middle = -(single.dot(row, [(low + high) * 0.5 for low, high in sides]) + rise)
+        reach = single.dot(map(abs, row), [(high - low) * 0.5 for low, high in sides])
         near, far = middle - reach, middle + reach
         nearest, farthest = self.camera.znear, self.camera.zfar
         if nearest is not None and farthest is not None:

@@ -8,6 +8,7 @@ unlike a bounding box this has no empty corners. Non-finite vertices do not coun
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -69,7 +70,7 @@ class _Placed:
         self.count = 0
         self._meshes: list[Mesh | None] = []  # None if only the box counts
         self._poses: list[np.ndarray] = []
-        self._boxes: list[np.ndarray] = []
+        self._boxes: list[np.ndarray] = []  # one for each array of poses
 
     def add(self, obj: Mesh | InstancedMesh, poses: np.ndarray) -> None:
         """Add an object at each of the world poses (K, 4, 4)."""
@@ -90,12 +91,17 @@ class _Placed:
         self.count += len(poses)
         self._meshes += [mesh] * len(poses)
         self._poses.append(poses)
-        self._boxes.append(np.asarray(box)[np.newaxis].repeat(len(poses), axis=0))
+        self._boxes.append(box)
+
+    @cached_property
+    def _joined(self) -> tuple[np.ndarray, np.ndarray]:
+        """All poses, and the box at each; nothing is added once they are asked for."""
+        counts = [len(poses) for poses in self._poses]
+        return np.concatenate(self._poses), np.array(self._boxes).repeat(counts, axis=0)
 
     def support(self, directions: np.ndarray) -> np.ndarray:
         """Return the support, searching vertices only where the boxes extend farthest."""
-        poses, boxes = np.concatenate(self._poses), np.concatenate(self._boxes)
-        self._poses, self._boxes = [poses], [boxes]  # so that the next call joins nothing
+        poses, boxes = self._joined
         local, offset = _in_their_own_space(poses, directions)
         center, half = (boxes[:, 0] + boxes[:, 1]) * 0.5, (boxes[:, 1] - boxes[:, 0]) * 0.5
         bound = linalg.dot(local, center[:, np.newaxis])

@@ -22,7 +22,6 @@ from ..model.scene.gradients import Gradient
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
 from ..model.scene.surroundings import Background
-from ..model.scene.usage import uses_in
 from ..rendering.options import WHITE, RenderOptions
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
@@ -124,7 +123,8 @@ def count_points(scene: Scene) -> int:
 
 def has_faces(scene: Scene) -> bool:
     """Return whether a scene has more than points and lines."""
-    return any(isinstance(thing, Mesh) and len(thing.faces) > 0 for thing in uses_in([scene]))
+    meshes = (getattr(obj, "mesh", obj) for obj in scene.data.objects.objects)
+    return any(isinstance(mesh, Mesh) and len(mesh.faces) > 0 for mesh in meshes)
 
 
 def following(value: Value, choices: Sequence[Value], step: int = 1) -> Value:

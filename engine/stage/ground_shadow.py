@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -51,6 +51,8 @@ _LOW, _HIGH = -0.01, 3.0
 _LEAST, _MOST, _BLOCK = 2, 4, 64
 #: The values of a point fully inside a slice, and of one blurred horizontally.
 _WHOLE, _WIDE = 256.0, 4096.0
+#: Rows and columns.
+Block: TypeAlias = tuple[slice, slice]
 #: The distance in radii at which the shadow starts to fade, to vanish before the square's edge.
 _FADES = 1.6
 
@@ -125,8 +127,8 @@ class GroundShadow:
 
     def _heights(
         self, slant: tuple[float, float], lowest: float, sphere: Sphere, cull: FrameCull
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the model's lower and upper surface along rays, in radii: two of (SIDE, SIDE).
+    ) -> tuple[Block, np.ndarray, np.ndarray]:
+        """Return the model's lower and upper surface along rays, in radii, and where they are.
 
         Where nothing is, the lower surface is at infinity and the upper at minus infinity.
         """
@@ -138,9 +140,11 @@ class GroundShadow:
         from_above = _camera((across, -down), -2 * _HIGH, sphere.radius)
         below = self._depths(from_below, middle, (right, back, -up))[::-1]
         above = self._depths(from_above, middle, (right, -back, up), cull)
+        block = _block(np.isfinite(above))
+        below, above = _share_of_depth(below[block]), _share_of_depth(above[block])
         last = np.float32(_HIGH) - above * np.float32(_HIGH - _LOW)
         first = np.minimum(np.float32(_LOW) + below * np.float32(_HIGH - _LOW), last)
-        return np.where(np.isfinite(above), first, np.float32(np.inf)), last
+        return block, np.where(np.isfinite(above), first, np.float32(np.inf)), last
 
     def _depths(
         self,
@@ -149,7 +153,7 @@ class GroundShadow:
         axes: Sequence[np.ndarray],
         cull: FrameCull = "none",
     ) -> np.ndarray:
-        """Return depths from 0 to 1 seen by a camera on the ground; infinite where nothing is."""
+        """Return ndc depths seen by a camera on the ground; infinite where nothing is."""
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = np.stack(axes, axis=1), middle
         by_mesh = cull == "auto"  # each renderer keeps the mode it began with
@@ -158,7 +162,12 @@ class GroundShadow:
         frame = self._renderers[by_mesh].render(
             self._scene, (camera, pose), outputs=("ndc_depth",), cull=cull
         )
-        return (frame.ndc_depth + np.float32(1.0)) * np.float32(0.5)
+        return frame.ndc_depth
+
+
+def _share_of_depth(depths: np.ndarray) -> np.ndarray:
+    """Return ndc depths as numbers from 0 to 1."""
+    return (depths + np.float32(1.0)) * np.float32(0.5)
 
 
 def usual_slant(azimuth: float) -> tuple[float, float]:
@@ -257,10 +266,8 @@ def _camera(lean: tuple[float, float], reached: float, radius: float) -> Camera:
 # ---- slices ----
 
 
-def _darkness(first: np.ndarray, last: np.ndarray, spread: float) -> np.ndarray:
+def _darkness(block: Block, first: np.ndarray, last: np.ndarray, spread: float) -> np.ndarray:
     """Return the light blocked by all slices, (SIDE, SIDE) float32 from 0 to 1."""
-    rows, columns = _block(last > -np.inf)
-    first, last = first[rows, columns], last[rows, columns]
     level = _texels(len(_HEIGHTS) - 1, spread)[0]
     taken = np.zeros((SIDE >> level, SIDE >> level), np.float32)
     for number in reversed(range(len(_HEIGHTS))):
@@ -270,9 +277,7 @@ def _darkness(first: np.ndarray, last: np.ndarray, spread: float) -> np.ndarray:
         part = _slice(first, last, number)
         inner = _block(part > 0)
         if part[inner].size:
-            corner = [
-                a.start + b.start >> level for a, b in zip((rows, columns), inner, strict=True)
-            ]
+            corner = [a.start + b.start >> level for a, b in zip(block, inner, strict=True)]
             _lay(_spread(_coarse(part[inner], level), reach), taken, corner, 3 * reach)
     while level > 0:
         taken, level = _doubled(taken), level - 1
@@ -301,7 +306,7 @@ def _share(height: np.ndarray, step: float) -> np.ndarray:
     return np.clip(height * np.float32(1 / step), np.float32(0), np.float32(1))
 
 
-def _block(shows: np.ndarray) -> tuple[slice, slice]:
+def _block(shows: np.ndarray) -> Block:
     """Return the non-empty rows and columns, rounded to whole blocks."""
     found = []
     for axis in (1, 0):

@@ -7,7 +7,8 @@ import pytest
 
 from engine3d.apps.bench import figures, measuring
 from engine3d.apps.cli import main
-from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
+from engine3d.apps.scenes import PLAIN_NAMES, WORKLOAD_NAMES, workloads
+from engine3d.errors import InvalidArgumentError
 
 SMALL = ("--size", "64x36", "--seconds", "0.01")
 
@@ -64,7 +65,7 @@ def test_wrong_usage(arguments, capsys):
 def test_help_lists_the_workloads(capsys):
     assert main(["bench", "--help"]) == 0
     printed = capsys.readouterr().out
-    assert [line.split()[0] for line in printed.splitlines()[-12:]] == list(WORKLOAD_NAMES)
+    assert [line.split()[0] for line in printed.splitlines()[-14:]] == list(WORKLOAD_NAMES)
 
 
 @pytest.mark.parametrize("name", [n for n in WORKLOAD_NAMES if not n.startswith("city")])
@@ -77,6 +78,12 @@ def test_workloads_show_something_and_move(name):
     assert len(counts) > 4 and counts.max() < 0.8 * 64 * 36  # the background does not fill it
     _, pose = made.view(0)
     assert any((pose != made.view(frame)[1]).any() for frame in range(1, 4))
+
+
+@pytest.mark.parametrize("name", sorted({*WORKLOAD_NAMES} - {*PLAIN_NAMES}))
+def test_no_plain_picture_is_made_of_what_others_do_not_draw(name):
+    with pytest.raises(InvalidArgumentError, match=name):
+        workloads.make(name, plain=True)
 
 
 def test_numbers_of_triangles_are_those_that_are_told():

@@ -112,6 +112,32 @@ def test_lines_follow_what_moves_comes_and_changes():
             assert np.array_equal(picture, e3d.render(scene, size=SIZE).color)
 
 
+def test_lines_that_are_kept_are_those_found_anew():
+    generator = np.random.default_rng(7)
+    meshes = [e3d.box(), e3d.cylinder(0.4, 1.0, segments=6)]
+    scene, nodes = e3d.Scene(), []
+    camera = e3d.PerspectiveCamera(0.9), e3d.look_at((6, 5, 7), (0, 0, 0))
+    with e3d.Renderer(SIZE, look="studio") as kept:
+        for step in range(24):
+            kind = generator.integers(5)
+            if kind < 2 or not nodes:
+                parent = nodes[0] if nodes and generator.random() < 0.3 else None
+                nodes.append(scene.add(meshes[generator.integers(2)], parent=parent))
+            node = nodes[generator.integers(len(nodes))]
+            if kind == 4 and node is not nodes[0]:
+                scene.remove(node)
+                nodes.remove(node)
+            elif kind == 3:
+                node.visible = not node.visible
+            else:
+                node.translation = generator.uniform(-2, 2, 3)
+            if step % 4:
+                continue
+            with e3d.Renderer(SIZE, look="studio") as anew:
+                expected = anew.render(scene, camera).color
+            assert (kept.render(scene, camera).color == expected).all(), step
+
+
 def test_a_frame_of_a_motion_is_that_of_its_moment():
     scene = e3d.Scene()
     node = scene.add(e3d.box())

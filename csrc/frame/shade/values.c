@@ -64,10 +64,10 @@ static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_a
             pixels[4 * at[i] + k] = finite[k][i];
 }
 
-/* Applies rows of view_from_world to positions (w = 1) or directions (w = 0). */
-static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane_array *v, int w, e3d_lane_array out[3])
+/* Applies rows of view_from_world, from `row` on, to positions (w = 1) or directions (w = 0). */
+static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane_array *v, int w, int row, e3d_lane_array out[3])
 {
-    for (int row = 0; row < 3; row++) {
+    for (; row < 3; row++) {
         const float *m = view->rows + 4 * row;
         for (int i = 0; i < batch->count; i++) {
             float sum = (m[0] * v[0][i] + m[1] * v[1][i]) + m[2] * v[2][i];
@@ -83,11 +83,11 @@ static void put_view(const batch_place *place)
     const e3d_targets *t = place->store->pass->targets;
     e3d_lane_array v[3];
     if (t->normal) {
-        to_view(view, batch, batch->normal, 0, v);
+        to_view(view, batch, batch->normal, 0, 0, v);
         put(place, E3D_OUTPUT_NORMAL, v);
     }
     if (t->position || t->depth) {
-        to_view(view, batch, e3d_batch_places(batch), 1, v);
+        to_view(view, batch, e3d_batch_places(batch), 1, t->position ? 0 : 2, v);
         put(place, E3D_OUTPUT_POSITION, v);
         for (int i = 0; i < batch->count; i++)
             v[2][i] = 0.0f - v[2][i];
@@ -125,7 +125,7 @@ static void put_textures(const batch_place *place, const e3d_bucket *bucket, e3d
     put(place, E3D_OUTPUT_EMISSIVE, textures->emissive);
     if (t->tangent) {
         e3d_lane_array v[4];
-        to_view(place->store->pass->view, place->batch, textures->tangent, 0, v);
+        to_view(place->store->pass->view, place->batch, textures->tangent, 0, 0, v);
         memcpy(v[3], textures->tangent[3], sizeof v[3]);
         put(place, E3D_OUTPUT_TANGENT, v);
     }
@@ -144,38 +144,31 @@ static void put_barycentric(const batch_place *place)
     put(place, E3D_OUTPUT_BARYCENTRIC, b);
 }
 
-static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
+/* What IDs say of a surface. */
+static int32_t id_of(const e3d_shade_memory *memory, e3d_output_kind kind, int32_t surface)
 {
-    for (int i = 0; i < count; i++)
-        pixels[at[i]] = id;
+    const e3d_visible_primitive *primitive = (const e3d_visible_primitive *)memory->primitives.data + memory->surfaces.primitive[surface];
+    const e3d_draw *draw = primitive->draw->draw;
+    switch (kind) {
+    case E3D_OUTPUT_FACE_ID: return e3d_face_of(primitive->draw, primitive->local);
+    case E3D_OUTPUT_OBJECT_ID: return e3d_object_id(draw, primitive->instance);
+    case E3D_OUTPUT_INSTANCE_ID: return e3d_instance_id(draw, primitive->instance);
+    default: return ((const e3d_bucket *)memory->buckets.data)[primitive->bucket].material->id;
+    }
 }
 
-/* Writes IDs; samples of one surface are neighbours. */
+/* Writes IDs, found once a surface; going from surface to surface here, too, would cost a wrong guess at the end of each. */
 static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
 {
+    const e3d_output_kind kinds[] = {E3D_OUTPUT_FACE_ID, E3D_OUTPUT_OBJECT_ID, E3D_OUTPUT_INSTANCE_ID, E3D_OUTPUT_MATERIAL_ID};
     const e3d_batch *batch = place->batch;
-    const int32_t *at = place->at;
-    const e3d_visible_primitive *primitives = memory->primitives.data;
-    const e3d_bucket *buckets = memory->buckets.data;
-    int32_t *triangles = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_FACE_ID);
-    int32_t *objects = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_OBJECT_ID);
-    int32_t *instances = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_INSTANCE_ID);
-    int32_t *materials = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_MATERIAL_ID);
-    if (!triangles && !objects && !instances && !materials)
-        return;
-    for (int i = 0, end = 0; i < batch->count; i = end) {
-        while (end < batch->count && batch->surface[end] == batch->surface[i])
-            end++;
-        const e3d_visible_primitive *primitive = &primitives[memory->surfaces.primitive[batch->surface[i]]];
-        const e3d_draw *draw = primitive->draw->draw;
-        if (triangles)
-            put_id(triangles, at + i, end - i, e3d_face_of(primitive->draw, primitive->local));
-        if (objects)
-            put_id(objects, at + i, end - i, e3d_object_id(draw, primitive->instance));
-        if (instances)
-            put_id(instances, at + i, end - i, e3d_instance_id(draw, primitive->instance));
-        if (materials)
-            put_id(materials, at + i, end - i, buckets[primitive->bucket].material->id);
+    int32_t ids[E3D_BATCH_SURFACES];
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        int32_t *pixels = e3d_outputs_gathered(place->store, place->out, kinds[k]);
+        for (int32_t n = 0; n < memory->surfaces.count && pixels; n++)
+            ids[n] = id_of(memory, kinds[k], n);
+        for (int i = 0; i < batch->count && pixels; i++)
+            pixels[place->at[i]] = ids[batch->surface[i]];
     }
 }
 

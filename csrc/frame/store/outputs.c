@@ -2,6 +2,7 @@
  * by row. */
 #include <math.h>
 
+#include "base/always_inline.h"
 #include "e3d.h"
 #include "frame/pass/plan.h"
 #include "frame/store/backdrop.h"
@@ -50,6 +51,8 @@ void e3d_outputs_begin(const e3d_store *store, e3d_store_memory *memory)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
         int32_t *words = e3d_outputs_gathered(store, memory, k), background = KINDS[k].background.as_int32_t;
+        if (k == E3D_OUTPUT_NDC_DEPTH) /* put_ndc_depth writes all of it */
+            continue;
         for (int i = 0; words && i < KINDS[k].channels * E3D_TILE_SAMPLES; i++)
             words[i] = background;
     }
@@ -67,15 +70,26 @@ void e3d_outputs_again(const e3d_store *store, const e3d_tile *tile, e3d_store_m
     }
 }
 
+/* Inlined, and all depths are read, so that the compiler makes vectors of neighbouring samples. */
+static ALWAYS_INLINE void put_row(const float *restrict z, const int32_t *restrict id, int axis, int count, float *restrict out)
+{
+    for (int x = 0; x < count; x++) {
+        float depth = z[x * axis];
+        out[x] = id[x * axis] >= 0 ? depth : INFINITY;
+    }
+}
+
 static void put_ndc_depth(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory)
 {
     float *pixels = e3d_outputs_gathered(store, memory, E3D_OUTPUT_NDC_DEPTH);
     int axis = store->pass->frame->samples_axis, middle = axis / 2;
-    for (int y = 0; pixels && y < tile->height / axis; y++)
-        for (int x = 0; x < tile->width / axis; x++) {
-            int at = (y * axis + middle) * E3D_TILE + x * axis + middle;
-            pixels[y * E3D_TILE + x] = visible->id[at] >= 0 ? visible->z[at] : INFINITY;
-        }
+    for (int y = 0; pixels && y < tile->height / axis; y++, pixels += E3D_TILE) {
+        int at = (y * axis + middle) * E3D_TILE + middle;
+        if (axis == 1)
+            put_row(visible->z + at, visible->id + at, 1, tile->width, pixels);
+        else
+            put_row(visible->z + at, visible->id + at, axis, tile->width / axis, pixels);
+    }
 }
 
 void e3d_outputs_end(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory)

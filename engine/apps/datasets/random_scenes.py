@@ -202,16 +202,16 @@ def random_texture(generator: Generator, side: int = 64, pattern: str | None = N
     if pattern is None:
         pattern = generator.choice(PATTERNS)
     choose(pattern, PATTERNS, "pattern")
-    colors = generator.integers(0, 256, (2, 3))
+    colors = generator.integers(0, 256, (2, 3)).astype(np.int32)
     share = _shares(generator, side, pattern)[..., np.newaxis]  # of the first colour, in 256ths
     pixels = (colors[0] * share + colors[1] * (256 - share)) >> 8
     return Texture(pixels.astype(np.uint8), name=pattern)
 
 
-def _shares(generator: Generator, side: int, pattern: str) -> NDArray[np.int64]:
+def _shares(generator: Generator, side: int, pattern: str) -> NDArray[np.int32]:
     """Return the share of the first colour for each pixel, (side, side), 0 to 256."""
     cell = side >> generator.integer(1, 4)
-    y, x = np.mgrid[0:side, 0:side]
+    y, x = np.indices((side, side), np.int32)
     if pattern == "checker":
         return ((x // cell + y // cell) & 1) * 256
     if pattern == "stripes":
@@ -222,10 +222,12 @@ def _shares(generator: Generator, side: int, pattern: str) -> NDArray[np.int64]:
     return _noise(generator, x, y, cell)
 
 
-def _noise(generator: Generator, x: np.ndarray, y: np.ndarray, cell: int) -> np.ndarray:
+def _noise(
+    generator: Generator, x: NDArray[np.int32], y: NDArray[np.int32], cell: int
+) -> NDArray[np.int32]:
     """Return random values at the corners of cells, linearly interpolated in between."""
     cells = len(x) // cell
-    corners = generator.integers(0, 257, (cells, cells))
+    corners = generator.integers(0, 257, (cells, cells)).astype(np.int32)
     left, top, right, low = x // cell, y // cell, x % cell, y % cell
     beside, below = (left + 1) % cells, (top + 1) % cells
     above = corners[top, left] * (cell - right) + corners[top, beside] * right

@@ -29,12 +29,15 @@ class Named(NamedTuple):
         Function of `workloads` that makes what is measured of it; empty: nothing is.
     options : tuple of str
         What of the command line the function takes that makes a `ViewedScene`.
+    plain : bool
+        Whether there is a plain picture of what is measured, which other renderers draw alike.
     """
 
     about: str
     viewed: str = ""
     measured: str = ""
     options: tuple[str, ...] = ()
+    plain: bool = True
 
 
 SCENES = {
@@ -57,6 +60,10 @@ SCENES = {
     "city-street": Named("a city of a million triangles at street level", measured="city_street"),
     "city-above": Named("the city from above", measured="city_above"),
     "city-lights": Named("the street under 256 point lights", measured="city_lights"),
+    "city-occlusion": Named(
+        "the street with ambient occlusion", measured="city_occlusion", plain=False
+    ),
+    "glass": Named("a vase, a candle holder and 64 panes of glass", measured="glass", plain=False),
     "fill-front": Named("32 layers that fill the picture, front to back", measured="fill_front"),
     "fill-back": Named("the same layers, back to front", measured="fill_back"),
     "spheres": Named("39,304 spheres, all in view", "crowds.spheres", "spheres"),
@@ -66,6 +73,7 @@ SCENES = {
 }
 DEMO_NAMES = tuple(name for name, scene in SCENES.items() if scene.viewed)
 WORKLOAD_NAMES = tuple(name for name, scene in SCENES.items() if scene.measured)
+PLAIN_NAMES = tuple(name for name in WORKLOAD_NAMES if SCENES[name].plain)
 
 
 def load_demo(name: str, **options) -> ViewedScene:

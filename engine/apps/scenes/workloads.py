@@ -16,13 +16,14 @@ from pathlib import Path
 import numpy as np
 
 from ...base import linalg
+from ...errors import InvalidArgumentError
 from ...extras.worlds import city
 from ...io.loaders import load_mesh, load_texture
 from ...model.geometry.mesh import Mesh
 from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
-from ...model.primitives import uv_sphere
+from ...model.primitives import cylinder, plane, quad, torus, uv_sphere
 from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.lights import DirectionalLight
@@ -87,7 +88,9 @@ def _triangles(thing) -> int:
 
 
 def make(name: str, plain: bool = False) -> Workload:
-    """Return a workload by its name, one of `WORKLOAD_NAMES`."""
+    """Return a workload by its name, one of `WORKLOAD_NAMES`; plain: one of `PLAIN_NAMES`."""
+    if plain and not SCENES[name].plain:
+        raise InvalidArgumentError(f"there is no plain picture of {name}")
     return _workload(name, globals()[SCENES[name].measured](plain), plain)
 
 
@@ -191,6 +194,52 @@ def city_street(plain, lights=0):
 def city_above(plain):
     scene, _ = city_views.city_scene(_city(plain), 0)
     return scene, (city_views.ABOVE, city_views.ABOVE_TARGET, (0.9, 5.0, 6000.0)), {}
+
+
+def city_occlusion(plain):
+    scene, view, options = city_street(plain)
+    return scene, view, {**options, "ambient_occlusion": True}
+
+
+def _turned(radii, height, around=96) -> Mesh:
+    """Return a surface of revolution about the Y axis, from its radii at evenly spaced heights."""
+    turns = 2 * np.pi / around * np.arange(around)
+    rows = np.linspace(0.0, height, len(radii))[:, np.newaxis] + 0.0 * turns
+    radii = np.asarray(radii)[:, np.newaxis]
+    positions = np.stack([radii * linalg.cos(turns), rows, radii * linalg.sin(turns)], axis=-1)
+    corner = np.arange(rows.size).reshape(rows.shape)
+    here, over = corner[:-1], corner[1:]
+    beside, across = np.roll(here, -1, 1), np.roll(over, -1, 1)
+    faces = np.stack([here, over, across, here, across, beside], axis=-1)
+    return Mesh(positions.reshape(-1, 3), faces.reshape(-1, 3))
+
+
+def glass(plain):
+    """Return glass that bends what is behind it, and panes that tint it, on a globe's map."""
+    scene = _scene()
+    ground = plane((12.0, 12.0))
+    ground.materials = [Material(texture=load_texture(MODELS / "globe.webp"))]
+    scene.add(ground)
+    heights = np.linspace(0.0, 1.0, 48)
+    vase = _turned(0.42 + 0.2 * linalg.sin(5.0 * heights) - 0.15 * heights, 1.8)
+    vase.materials = [Material(transmission=1.0, thickness=0.3, roughness=0.0, metallic=0.0)]
+    scene.add(vase, translation=(-0.9, 0.0, 0.0))
+    blue = Material(
+        transmission=1.0,
+        thickness=0.5,
+        roughness=0.2,
+        metallic=0.0,
+        attenuation_color=linear(0.3, 0.5, 0.9),
+        attenuation_distance=0.5,
+    )
+    foot, stem = torus(0.35, 0.12), cylinder(0.2, 0.9)
+    foot.materials = stem.materials = [blue]
+    scene.add(foot, translation=(0.9, 0.12, 0.5), rotation=(0.5**0.5, 0.0, 0.0, 0.5**0.5))
+    scene.add(stem, translation=(0.9, 0.45, 0.5))
+    pane = quad()
+    pane.materials = [Material(color=(120, 190, 160, 70), alpha_mode="blend", two_sided=True)]
+    scene.add(InstancedMesh(pane, _rows(8, 0.6, 0.9) + (0.0, 0.5, -2.8, 0.0)))
+    return scene, ((0.0, 1.7, 4.4), (0.0, 0.7, 0.0), (0.7, 0.1, 40.0)), {}
 
 
 def fill_front(plain, count=LAYERS, back_to_front=False):

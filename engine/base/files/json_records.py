@@ -8,7 +8,6 @@ they count as damaged.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import os
@@ -124,6 +123,8 @@ def read_sealed(path: str | os.PathLike[str], shape: Shape) -> Any:
 
 
 def _digest(data: bytes) -> bytes:
+    import hashlib  # here, because it takes milliseconds
+
     return hashlib.blake2b(data, digest_size=_DIGITS // 2).hexdigest().encode("ascii")
 
 

@@ -28,6 +28,13 @@ def multiply(a: Rows, b: Rows) -> list[tuple[float, ...]]:
     ]
 
 
+def dot(a: Iterable[float], b: Iterable[float]) -> float:
+    """Return the scalar product."""
+    ax, ay, az = a
+    bx, by, bz = b
+    return ax * bx + ay * by + az * bz
+
+
 def cross(a: Vector, b: Vector) -> Vector:
     """Return the vector product."""
     ax, ay, az = a

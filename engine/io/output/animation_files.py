@@ -16,7 +16,6 @@ import numpy as np
 from ...base.files.atomic_write import atomic_write
 from ...rendering.frame import Frame
 from .frame_names import frame_name
-from .video_files import save_video
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -60,6 +59,8 @@ def save_animation(pictures: Iterable[np.ndarray], path: Any, seconds_a_frame: f
         return
     suffix = os.path.splitext(path)[1].lower()
     if suffix == VIDEO_SUFFIX:
+        from .video_files import save_video  # here: what runs programs takes milliseconds to import
+
         save_video(pictures, path, seconds_a_frame)
     else:
         _save_images(pictures, path, ANIMATION_FORMATS[suffix], seconds_a_frame)

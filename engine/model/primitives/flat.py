@@ -15,6 +15,9 @@ from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from .arguments import MAX_SEGMENTS, integer, names_itself, positives, segment_pair
 from .faces import grid_quads, split_quads
+from .forms import keeps_forms, shaped
+
+FloatArray = npt.NDArray[np.float64]
 
 # Texture coordinates of a quad's corners: lower left, lower right, upper right, upper left.
 _CORNER_UVS = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
@@ -53,13 +56,19 @@ def box(size: float | npt.ArrayLike = (1.0, 1.0, 1.0)) -> Mesh:
     InvalidArgumentError
         If a length isn't finite and greater than 0.
     """
-    half = 0.5 * np.array(positives("size", size, 3))
+    corners, form = _cube()
+    return shaped(form, corners * (0.5 * np.array(positives("size", size, 3))))
+
+
+@keeps_forms
+def _cube() -> tuple[FloatArray, Mesh]:
+    """Return the box from -1 to 1, and its positions."""
     normals, right, up = (_BOX_FACES[:, np.newaxis, k] for k in range(3))
     offset = 2.0 * _CORNER_UVS - 1.0
-    corners = normals + right * offset[:, :1] + up * offset[:, 1:]
+    corners = (normals + right * offset[:, :1] + up * offset[:, 1:]).reshape(-1, 3)
     faces, edge_visible = split_quads(np.arange(24, dtype=np.int32).reshape(6, 4))
-    return Mesh(
-        corners.reshape(-1, 3) * half,
+    return corners, Mesh(
+        corners,
         faces,
         normals=np.repeat(_BOX_FACES[:, 0], 4, axis=0),
         uvs=np.tile(_CORNER_UVS, (6, 1)),
@@ -69,10 +78,9 @@ def box(size: float | npt.ArrayLike = (1.0, 1.0, 1.0)) -> Mesh:
     )
 
 
-def _corner_numbers(corners: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
+def _corner_numbers(corners: FloatArray) -> npt.NDArray[np.int32]:
     """Number corners of the cube from -1 to 1 by the octant that they lie in."""
-    positive = corners.reshape(-1, 3) > 0.0
-    return (positive * (1, 2, 4)).sum(axis=1).astype(np.int32)
+    return ((corners > 0.0) * (1, 2, 4)).sum(axis=1).astype(np.int32)
 
 
 @names_itself
@@ -103,17 +111,25 @@ def plane(size: float | npt.ArrayLike = (1.0, 1.0), segments: int | npt.ArrayLik
     if segments.ndim == 0:
         segments = (integer("segments", segments.item(), 1, MAX_SEGMENTS),) * 2
     columns, rows = segment_pair("segments", segments, (1, 1))
+    u, v, form = _sheet(rows, columns)
+    return shaped(form, np.stack(((u - 0.5) * width, np.zeros_like(u), (0.5 - v) * depth), axis=1))
+
+
+@keeps_forms
+def _sheet(rows: int, columns: int) -> tuple[FloatArray, FloatArray, Mesh]:
+    """Return the texture coordinates of a plane, and a plane."""
     grid = np.meshgrid(np.arange(rows + 1) / rows, np.arange(columns + 1) / columns, indexing="ij")
     v, u = grid[0].ravel(), grid[1].ravel()
     faces, edge_visible = split_quads(grid_quads(rows, columns))
-    return Mesh(
-        np.stack(((u - 0.5) * width, np.zeros_like(u), (0.5 - v) * depth), axis=1),
+    form = Mesh(
+        np.stack((u, np.zeros_like(u), v), axis=1),
         faces,
         normals=np.tile((0.0, 1.0, 0.0), (len(u), 1)),
         uvs=np.stack((u, v), axis=1),
         edge_visible=edge_visible,
         name="plane",
     )
+    return u, v, form
 
 
 @names_itself

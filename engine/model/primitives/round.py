@@ -15,6 +15,7 @@ from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from .arguments import MAX_SEGMENTS, integer, names_itself, positive, segment_pair
 from .faces import BoolArray, IntArray, grid_points, grid_quads, split_quads
+from .forms import keeps_forms, shaped
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -63,6 +64,13 @@ def uv_sphere(radius: float = 0.5, segments: npt.ArrayLike = (32, 16)) -> Mesh:
     """
     radius = positive("radius", radius)
     around, bands = segment_pair("segments", segments, (3, 2))
+    normals, form = _globe(around, bands)
+    return shaped(form, normals * radius)
+
+
+@keeps_forms
+def _globe(around: int, bands: int) -> tuple[FloatArray, Mesh]:
+    """Return the sphere of radius 1, and its positions."""
     height, distance = (values[1:bands] for values in linalg.unit_circle(2 * bands))
     # From the south upwards, hence -height.
     rings = distance[:, np.newaxis, np.newaxis] * _meridians(around)
@@ -75,8 +83,8 @@ def uv_sphere(radius: float = 0.5, segments: npt.ArrayLike = (32, 16)) -> Mesh:
         split_quads(grid_quads(bands - 2, around) + np.int32(around)),
         _wedges(top, top - around - 1, around, upward=True),
     )
-    return Mesh(
-        normals * radius,
+    return normals, Mesh(
+        normals,
         np.vstack([faces for faces, _ in parts]),
         normals=normals,
         uvs=_globe_uvs(around, bands),
@@ -126,6 +134,13 @@ def cylinder(radius: float = 0.5, height: float = 1.0, segments: int = 32) -> Me
     """
     radius, height = positive("radius", radius), positive("height", height)
     count = integer("segments", segments, 3, MAX_SEGMENTS)
+    positions, form = _cylinder(count)
+    return shaped(form, positions * (radius, 0.5 * height, radius))
+
+
+@keeps_forms
+def _cylinder(count: int) -> tuple[FloatArray, Mesh]:
+    """Return the cylinder of radius 1 and height 2, and its positions."""
     outward = _meridians(count)
     ring = count + 1
     side_uvs = np.array([(k / count, v) for v in (0.0, 1.0) for k in range(ring)])
@@ -140,8 +155,8 @@ def cylinder(radius: float = 0.5, height: float = 1.0, segments: int = 32) -> Me
         _fan(2 * ring, count, upward=False),
         _fan(3 * ring, count, upward=True),
     )
-    return Mesh(
-        positions * (radius, 0.5 * height, radius),
+    return positions, Mesh(
+        positions,
         np.vstack([faces for faces, _ in parts]),
         normals=normals,
         uvs=np.vstack((side_uvs, *cap_uvs)),
@@ -201,19 +216,26 @@ def torus(
             f"minor_radius must be less than major_radius ({major}), not {minor}"
         )
     around, across = segment_pair("segments", segments, (3, 3))
-    ring_x, ring_y = (np.append(values, values[0]) for values in linalg.unit_circle(around))
-    tube_x, tube_z = (np.append(values, values[0]) for values in linalg.unit_circle(across))
-    tube_x, tube_z = tube_x[:, np.newaxis], tube_z[:, np.newaxis]
+    ring_x, ring_y, tube_x, tube_z, form = _torus(around, across)
     distance = major + minor * tube_x
     height = minor * tube_z + np.zeros_like(ring_x)
     positions = np.stack((distance * ring_x, distance * ring_y, height), axis=-1)
+    return shaped(form, positions.reshape(-1, 3))
+
+
+@keeps_forms
+def _torus(around: int, across: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Mesh]:
+    """Return the points of both circles, x and y of each, and a torus."""
+    ring_x, ring_y = (np.append(values, values[0]) for values in linalg.unit_circle(around))
+    tube_x, tube_z = (np.append(values, values[0]) for values in linalg.unit_circle(across))
+    tube_x, tube_z = tube_x[:, np.newaxis], tube_z[:, np.newaxis]
     normals = np.stack((tube_x * ring_x, tube_x * ring_y, tube_z + np.zeros_like(ring_x)), axis=-1)
     v, u = np.meshgrid(
         np.arange(across + 1) / across, np.arange(around + 1) / around, indexing="ij"
     )
     faces, edge_visible = split_quads(grid_quads(across, around))
-    return Mesh(
-        positions.reshape(-1, 3),
+    form = Mesh(
+        normals.reshape(-1, 3),
         faces,
         normals=normals.reshape(-1, 3),
         uvs=np.stack((u.ravel(), v.ravel()), axis=1),
@@ -221,3 +243,4 @@ def torus(
         position_ids=grid_points(across, around, closed_rows=True),
         name="torus",
     )
+    return ring_x, ring_y, tube_x, tube_z, form

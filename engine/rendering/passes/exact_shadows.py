@@ -68,7 +68,7 @@ class ExactShadows(Pass):
         draw_list = self.tools.draw_list
         if not self._moment.differs(arrays, arrays.updated, draw_list.renewals, spared):
             return
-        if self._casters.differs(arrays, draw_list.renewals, spared, *placed_casters(arrays)):
+        if self._casters.differs(arrays, draw_list.renewals, spared, placed_casters(arrays)):
             self._version = next(_versions)
         bits = None
         if any(spared):

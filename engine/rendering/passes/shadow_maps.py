@@ -80,7 +80,7 @@ class _LightMaps:
 
 def _softness(light: DirectLight) -> float:
     """Return the size of a light as R225 takes it; 0 if its shadows are hard."""
-    if not isinstance(light, DirectionalLight):
+    if not isinstance(light, DirectionalLight) or not light.shadow_softness:
         return light.shadow_softness
     half = 0.5 * light.shadow_softness
     return float(sin(half) / cos(half))

@@ -9,6 +9,7 @@ rounded values. Sources for cascades: Zhang et al. 2006 (parallel-split shadow m
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
-from ...base.linalg.single import cross, length, normalize
+from ...base.linalg.single import cross, dot, length, normalize
 from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
 from ...model.scene.shadow_casting import (
     LEAST_MAP,
@@ -32,18 +33,17 @@ _RATIO = 4.0  # each cascade reaches this many times as far as the one before
 _PLAY = 1.0 / 8.0  # of a map's side: the step by which it follows the camera
 _WIDEST = 10.0  # tangent of the widest angle of a spot light's map
 _NEAREST = 2.0**-12  # of the farthest: nearer objects cast no shadow of a point or spot light
-#: The faces of a point light's cube, +x, -x, +y, -y, +z, -z: right, down and ahead.
-_FACES = (
-    ((0, 0, 1), (0, -1, 0), (1, 0, 0)),
-    ((0, 0, -1), (0, -1, 0), (-1, 0, 0)),
-    ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
-    ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
-    ((-1, 0, 0), (0, -1, 0), (0, 0, 1)),
-    ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
+#: Right, down and ahead.
+Axes = Sequence[Sequence[float]]
+#: The faces of a point light's cube, +x, -x, +y, -y, +z, -z.
+_FACES: Sequence[Axes] = (
+    ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0)),
+    ((0.0, 0.0, -1.0), (0.0, -1.0, 0.0), (-1.0, 0.0, 0.0)),
+    ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
+    ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)),
+    ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
+    ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)),
 )
-
-Axes = NDArray[np.float64]
-Numbers = Sequence[float] | NDArray[np.float64]
 
 
 class MapView(NamedTuple):
@@ -62,8 +62,8 @@ class ShadowViews(NamedTuple):
     maps : list of MapView
     places : list of (float, float, float)
         Scale, x and y of `e3d_shadow_map`.
-    axes : (3, 3) float64
-        Right, down and ahead; for point lights the world's, which are not read.
+    axes : Axes
+        For point lights those of the first map, which are not read.
     depth : (float, float)
     margin : int
     size : int
@@ -82,12 +82,13 @@ def _single(value: float) -> float:
     return float(np.float32(value))
 
 
-def _dot(a: Numbers, b: Numbers) -> float:
-    """Return the scalar product, summed from left to right."""
-    total = float(a[0]) * float(b[0])
-    for one, other in zip(a[1:], b[1:], strict=True):
-        total += float(one) * float(other)
-    return total
+def _over(a: float, b: float) -> float:
+    """Return a quotient as IEEE has it: for a camera whose projection collapses depths."""
+    return a / b if b else float(np.divide(a, b))
+
+
+def _scaled(v: Sequence[float], by: float) -> list[float]:
+    return [part * by for part in v]
 
 
 def _rounded_up(value: float, steps: int) -> float:
@@ -104,24 +105,25 @@ def _axes_along(ahead: Sequence[float]) -> Axes:
     up = (0.0, 0.0, 1.0) if abs(y) > 0.999 else (0.0, 1.0, 0.0)
     right = normalize(cross((x, y, z), up))
     down = cross((x, y, z), right)
-    return np.array([right, down, (x, y, z)], np.float32).astype(np.float64)
+    rounded: Axes = np.array([right, down, (x, y, z)], np.float32).tolist()
+    return rounded
 
 
-def _extent(axis: NDArray[np.float64], bounds: NDArray[np.float64]) -> tuple[float, float]:
+def _extent(axis: Sequence[float], bounds: NDArray[np.float64]) -> tuple[float, float]:
     """Return the extent of a box along an axis."""
-    center, half = (bounds[0] + bounds[1]) * 0.5, (bounds[1] - bounds[0]) * 0.5
-    middle = _dot(axis, center)
-    reach = _dot(np.abs(axis), half)
+    low, high = bounds.tolist()
+    middle = dot(axis, [(a + b) * 0.5 for a, b in zip(low, high, strict=True)])
+    reach = dot(
+        [abs(part) for part in axis], [(b - a) * 0.5 for a, b in zip(low, high, strict=True)]
+    )
     return middle - reach, middle + reach
 
 
-def _view_of(axes: Axes, position: Numbers) -> NDArray[np.float64]:
+def _view_of(axes: Axes, position: Sequence[float]) -> list[list[float]]:
     """Return view_from_world of an eye that looks ahead."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = axes[0], -axes[1], -axes[2]
-    for row in range(3):
-        matrix[row, 3] = -_dot(matrix[row, :3], np.asarray(position, np.float64))
-    return matrix
+    right, down, ahead = axes
+    rows = list(right), [-part for part in down], [-part for part in ahead]
+    return [[*row, -dot(row, position)] for row in rows] + [[0.0, 0.0, 0.0, 1.0]]
 
 
 # Directional lights
@@ -206,20 +208,37 @@ def sight_of(view: View, bounds: NDArray[np.float64], count: int) -> Sight:
 
 def _slices(view: View, depths: list[tuple[float, float]]) -> list[Slice]:
     """Return the camera's view between pairs of depths."""
-    view_from_clip = linalg.inverse(view.projection)
-    corners = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
-    lines = [[_unproject(view_from_clip, x, y, z) for z in (-1.0, 0.0)] for x, y in corners]
-    world_from_view = linalg.inverse(view.view_from_world)
+    world_from_view = linalg.inverse(view.view_from_world).tolist()[:3]
+    found = []
+    for end, points, middle, radius in _parts(view.projection.tobytes(), tuple(depths)):
+        world, *around = (
+            tuple(dot(row[:3], at) + row[3] for row in world_from_view) for at in (middle, *points)
+        )
+        sides = list(zip(*around, strict=True))
+        box = np.array([[min(side) for side in sides], [max(side) for side in sides]])
+        found.append(Slice(end, 2.0 * radius, world, box))
+    return found
+
+
+class _Part(NamedTuple):
+    """A slice in view space: its farther depth, its corners, and a sphere around them."""
+
+    end: float
+    corners: list[list[float]]
+    middle: list[float]
+    radius: float
+
+
+@functools.lru_cache(16)
+def _parts(projection: bytes, depths: tuple[tuple[float, float], ...]) -> list[_Part]:
+    """Return what a projection shows between pairs of depths, wherever the camera is."""
+    view_from_clip = linalg.inverse(np.frombuffer(projection).reshape(4, 4)).tolist()
+    places = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
+    lines = [[_unproject(view_from_clip, x, y, z) for z in (-1.0, 0.0)] for x, y in places]
     found = []
     for start, end in depths:
-        points = [_at_depth(line, depth) for depth in (start, end) for line in lines]
-        middle, radius = _sphere(points)
-        world, *around = (
-            [_dot(row[:3], at) + float(row[3]) for row in world_from_view[:3]]
-            for at in (middle, *points)
-        )
-        box = np.array([np.min(around, axis=0), np.max(around, axis=0)])
-        found.append(Slice(end, 2.0 * radius, tuple(world), box))
+        corners = [_at_depth(line, depth) for depth in (start, end) for line in lines]
+        found.append(_Part(end, corners, *_sphere(corners)))
     return found
 
 
@@ -234,28 +253,38 @@ def _size_for(light: DirectionalLight, sight: Sight, whole: float) -> int:
     return max(min(texels, light.shadow_map_size), LEAST_MAP, 4 * margin)
 
 
-def _unproject(
-    view_from_clip: NDArray[np.float64], x: float, y: float, z: float
-) -> NDArray[np.float64]:
-    point = [_dot(row, np.array([x, y, z, 1.0])) for row in view_from_clip]
-    return np.array(point[:3]) / point[3]
+def _unproject(view_from_clip: Axes, x: float, y: float, z: float) -> list[float]:
+    *point, w = (dot(row[:3], (x, y, z)) + row[3] for row in view_from_clip)
+    return [_over(part, w) for part in point]
 
 
-def _at_depth(line: list[NDArray[np.float64]], depth: float) -> NDArray[np.float64]:
+def _at_depth(line: list[list[float]], depth: float) -> list[float]:
     """Return the point at a view-space depth on the line through two points."""
     first, second = line
-    share = (-depth - first[2]) / (second[2] - first[2])
-    return first + (second - first) * share
+    share = _over(-depth - first[2], second[2] - first[2])
+    return [a + (b - a) * share for a, b in zip(first, second, strict=True)]
 
 
-def _sphere(points: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], float]:
+def _mean(points: list[list[float]]) -> list[float]:
+    """Return the middle of four points."""
+    return [(((0.0 + a) + b) + c + d) / 4.0 for a, b, c, d in zip(*points, strict=True)]
+
+
+def _difference(a: Sequence[float], b: Sequence[float]) -> list[float]:
+    return [one - other for one, other in zip(a, b, strict=True)]
+
+
+def _sphere(points: list[list[float]]) -> tuple[list[float], float]:
     """Return centre and radius of a small sphere around four points and four others behind them."""
-    front, back = sum(points[:4], np.zeros(3)) / 4.0, sum(points[4:], np.zeros(3)) / 4.0
-    wide = [max(length(p - at) for p in of) for of, at in ((points[:4], front), (points[4:], back))]
-    deep = length(back - front)
-    share = min((deep * deep + wide[1] ** 2 - wide[0] ** 2) / (2.0 * deep * deep), 1.0)
-    middle = front + (back - front) * max(share, 0.0)
-    return middle, max(length(p - middle) for p in points)
+    front, back = _mean(points[:4]), _mean(points[4:])
+    wide = [
+        max(length(_difference(p, at)) for p in of)
+        for of, at in ((points[:4], front), (points[4:], back))
+    ]
+    deep = length(_difference(back, front))
+    share = max(min((deep * deep + wide[1] ** 2 - wide[0] ** 2) / (2.0 * deep * deep), 1.0), 0.0)
+    middle = [a + (b - a) * share for a, b in zip(front, back, strict=True)]
+    return middle, max(length(_difference(p, middle)) for p in points)
 
 
 def _cascades(
@@ -285,23 +314,24 @@ def _cascades(
     squares = []
     for one in sight.slices:
         if one.side < whole:
-            at = _dot(axes[0], one.middle), _dot(axes[1], one.middle)
+            at = dot(axes[0], one.middle), dot(axes[1], one.middle)
             squares.append(_square(one.side, at, size - 2 * margin, _PLAY))
     at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5
     squares.append(_square(whole, at, size - 2 * margin, 0.0))
-    ahead = (-axes[2]).tolist()
-    eye = (ahead[0], ahead[1], ahead[2], 0.0)
-    view_from_world = _view_of(axes, (0.0, 0.0, 0.0))
+    x, y, z = axes[2]
+    eye = (-x, -y, -z, 0.0)
+    view_from_world = np.array(_view_of(axes, (0.0, 0.0, 0.0)))
     maps, places = [], []
     for square in squares:
         scale = square.scale
         x, y = size / 2 - square.column, size / 2 - square.row
-        clip = np.zeros((4, 4))
-        clip[0, :3], clip[0, 3] = axes[0] * (2.0 * scale / size), 2.0 * x / size - 1.0
-        clip[1, :3], clip[1, 3] = axes[1] * (-2.0 * scale / size), 1.0 - 2.0 * y / size
-        clip[2, :3], clip[2, 3] = axes[2] * depth[0], depth[1]
-        clip[3, 3] = 1.0
-        maps.append(MapView(clip, view_from_world, eye))
+        clip = [
+            [*_scaled(axes[0], 2.0 * scale / size), 2.0 * x / size - 1.0],
+            [*_scaled(axes[1], -2.0 * scale / size), 1.0 - 2.0 * y / size],
+            [*_scaled(axes[2], depth[0]), depth[1]],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+        maps.append(MapView(np.array(clip), view_from_world, eye))
         places.append((scale, x, y))
     return ShadowViews(maps, places, axes, depth, margin, size)
 
@@ -321,7 +351,7 @@ def _between(
 
 
 def _looks_from(
-    position: NDArray[np.float64],
+    position: Sequence[float],
     all_axes: Sequence[Axes],
     scale: float,
     size: int,
@@ -329,20 +359,21 @@ def _looks_from(
 ) -> list[MapView]:
     maps = []
     for axes in all_axes:
-        clip, view_from_world = np.zeros((4, 4)), _view_of(axes, position)
-        clip[0] = view_from_world[0] * (2.0 * scale / size)
-        clip[1] = view_from_world[1] * (2.0 * scale / size)
-        clip[3] = -view_from_world[2]
-        clip[2] = clip[3] * depth[0]
-        clip[2, 3] += depth[1]
-        maps.append(MapView(clip, view_from_world, (*position.tolist(), 1.0)))
+        view_from_world = _view_of(axes, position)
+        across, up, back, _ = view_from_world
+        ahead = [-part for part in back]
+        far = _scaled(ahead, depth[0])
+        far[3] += depth[1]
+        clip = [_scaled(across, 2.0 * scale / size), _scaled(up, 2.0 * scale / size), far, ahead]
+        eye = (position[0], position[1], position[2], 1.0)
+        maps.append(MapView(np.array(clip), np.array(view_from_world), eye))
     return maps
 
 
 def _local_views(
     light: PointLight | SpotLight,
     position: Sequence[float],
-    all_axes: list[Axes],
+    all_axes: Sequence[Axes],
     tangent: float,
     between: tuple[float, float],
 ) -> ShadowViews:
@@ -354,7 +385,7 @@ def _local_views(
     scale = _single((size / 2 - margin - 0.5) / tangent)
     near, far = between
     depth = _single((far + near) / (far - near)), _single(-2.0 * far * near / (far - near))
-    at = np.array(position, np.float32).astype(np.float64)
+    at: list[float] = np.array(position, np.float32).tolist()
     maps = _looks_from(at, all_axes, scale, size, depth)
     places = [(scale, size / 2, size / 2)] * len(maps)
     return ShadowViews(maps, places, all_axes[0], depth, margin, size)
@@ -369,7 +400,7 @@ def _ahead(
     """Return the map of a spot light, which covers its cone; None if nothing is in front of it."""
     to_light, position = pose
     axes = _axes_along(tuple(-part for part in to_light))
-    here = _dot(axes[2], np.asarray(position, np.float64))
+    here = dot(axes[2], position)
     nearest, farthest = (depth - here for depth in _extent(axes[2], bounds))
     between = _between(light, nearest, farthest)
     if between is None:
@@ -394,9 +425,7 @@ def _cube(
     between = _between(light, nearest, farthest)
     if between is None:
         return None
-    return _local_views(
-        light, position, [np.array(axes, np.float64) for axes in _FACES], 1.0, between
-    )
+    return _local_views(light, position, _FACES, 1.0, between)
 
 
 #: The functions that place a light's maps, by layout (directional, spot or point); each takes

@@ -9,8 +9,7 @@ own faces do not hide them, while faces in front of them do.
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material, states_nothing
 from ...model.motion.posed_mesh import PosedMesh
 from ...model.scene.instances import InstancedMesh, instance_matrices
+from ...model.scene.node_arrays import NodeArrays
 from ...model.scene.nodes import Node
 from ...model.scene.shown import as_shown, placing_poses
 from ...model.scene.staged_scene import StagedScene
@@ -55,8 +55,13 @@ class FeatureLines:
         self._staged = staged
         self._of_all = of_all
         self._node: Node | None = None
-        self._found_in: Any = None
+        # The edges of objects by number, and what they were found in.
+        self._edges: dict[int, _Edges] = {}
+        self._edges_of_what: Any = None
         self._watch = Watch()
+        # The ends of edges by slot, object, anchor and version of the pose; when they were found.
+        self._placed: dict[tuple[int, int, int, int], np.ndarray] = {}
+        self._found_in: Any = None
 
     def show(self, shown: bool) -> None:
         """Show or hide the lines, if there are any."""
@@ -91,44 +96,73 @@ class FeatureLines:
         data = self._staged.data
         data.own.update()
         posing = None if data.posing is None else data.posing.moment
-        state = data.own.arrays.updated, data.own.objects.version, posing, data.hidden, only_closed
-        if state == self._found_in and not self._watch.found():
+        of = data.own.arrays, data.own.objects.version, posing, only_closed
+        if of != self._edges_of_what or self._watch.found():
+            objects = data.own.objects.objects
+            self._edges_of_what, self._watch = of, Watch(_things(objects))
+            self._edges = self._edges_of_all(objects, only_closed)
+            self._placed.clear()
+            self._found_in = None
+        state = data.own.arrays.updated, data.hidden
+        if state == self._found_in:
             return
-        self._found_in, self._watch = state, Watch(_things(data.own.objects.objects))
+        self._found_in = state
         if self._node is not None:
             self._staged.beside.remove(self._node)
             self._node = None
-        ends = list(itertools.islice(self._ends(only_closed), MOST_PARTS + 1))
-        count = sum(map(len, ends))
-        if 0 < count <= 2 * MOST_EDGES and len(ends) <= MOST_PARTS:
+        ends = self._ends()
+        if ends:
             material = Material(color=COLOR, alpha_mode="blend", unlit=True)
-            lines = np.arange(count, dtype=np.int32).reshape(-1, 2)
-            made = Mesh(np.concatenate(ends), lines=lines, materials=[material])
-            self._node = self._staged.beside.add(made, name="edges", cast_shadows=False)
+            made = np.concatenate(ends)
+            lines = np.arange(len(made), dtype=np.int32).reshape(-1, 2)
+            mesh = Mesh(made, lines=lines, materials=[material])
+            self._node = self._staged.beside.add(mesh, name="edges", cast_shadows=False)
             self._node.receive_shadows = False
 
-    def _ends(self, only_closed: bool) -> Iterator[np.ndarray]:
-        """Yield the ends of edges, (2 E, 3) in world space, until there are too many."""
-        data, count = self._staged.data, 0
-        arrays, objects = data.own.arrays, data.own.objects.objects
-        flags = arrays.columns["flags"][: arrays.count].copy()
+    def _ends(self) -> list[np.ndarray]:
+        """Return the ends of edges, arrays of (2 E, 3) in world space; none if there are too many.
+
+        Those of a node are kept until it moves.
+        """
+        data = self._staged.data
+        arrays = data.own.arrays
+        columns = {name: column[: arrays.count] for name, column in arrays.columns.items()}
+        shows = columns["flags"] & SHOWN != 0
         hidden = data.own.slots_of(data.hidden)
-        flags[hidden[hidden >= 0]] = 0
-        numbers = arrays.columns["object"][: arrays.count]
+        shows[hidden[hidden >= 0]] = False
+        edged = np.zeros(len(data.own.objects.objects) + 1, bool)  # the last one: of no object
+        edged[list(self._edges)] = True
+        slots = np.flatnonzero(shows & edged[columns["object"]])
+        slots = slots[np.argsort(columns["object"][slots], kind="stable")].astype(np.int32)
+        numbers = columns["object"][slots].tolist()
+        if sum(self._edges[number].count for number in numbers) > MOST_EDGES:
+            return []
+        if sum(self._edges[number].parts for number in numbers) > MOST_PARTS:
+            return []
+        anchors = columns["anchor"][slots]
+        placed = zip(
+            slots.tolist(),
+            numbers,
+            anchors.tolist(),
+            columns["world_version"][np.where(anchors < 0, slots, anchors)].tolist(),
+            strict=True,
+        )
+        before, self._placed = self._placed, {}
+        for state in placed:
+            ends = before.get(state)
+            if ends is None:
+                ends = self._edges[state[1]].placed(arrays, state[0])
+            self._placed[state] = ends
+        return [ends for ends in self._placed.values() if len(ends)]
+
+    def _edges_of_all(self, objects: Sequence[Any], only_closed: bool) -> dict[int, _Edges]:
+        """Return the edges of objects that are drawn, by number."""
+        found = {}
         for number, obj in enumerate(objects):
             edges = None if obj is None else self._edges_of(obj)
-            if edges is None or not len(edges) or (only_closed and not _is_closed(obj)):
-                continue
-            slots = np.flatnonzero((numbers == number) & (flags & SHOWN != 0)).astype(np.int32)
-            shape: Any = as_shown(obj)
-            for pose in _poses(shape, placing_poses(arrays, slots)):
-                mesh = getattr(shape, "mesh", shape)
-                with np.errstate(over="ignore", invalid="ignore"):
-                    placed = linalg.transform_points(pose, mesh.positions[edges.reshape(-1)])
-                yield _finite(placed)
-                count += len(edges)
-                if count > MOST_EDGES:
-                    return
+            if edges is not None and len(edges) and not (only_closed and not _is_closed(obj)):
+                found[number] = _Edges(as_shown(obj), edges.reshape(-1))
+        return found
 
     def _edges_of(self, obj: Any) -> np.ndarray | None:
         """Return the edges of an object's mesh that are drawn, (E, 2); None if none are."""
@@ -139,6 +173,35 @@ class FeatureLines:
         if is_tinted or not all(map(states_nothing, mesh.materials)):
             return None
         return derived(mesh, "faceted_edges")
+
+
+class _Edges:
+    """The edges of an object that are drawn.
+
+    Attributes
+    ----------
+    parts : int
+        At how many places a node draws them.
+    count : int
+        How many edges these are together.
+    """
+
+    def __init__(self, shape: Any, corners: np.ndarray) -> None:
+        mesh: Mesh = getattr(shape, "mesh", shape)
+        self._ends = mesh.positions[corners]
+        is_many = isinstance(shape, InstancedMesh)
+        self._instances = instance_matrices(shape.poses) if is_many else None
+        self.parts = 1 if self._instances is None else len(self._instances)
+        self.count = self.parts * (len(corners) // 2)
+
+    def placed(self, arrays: NodeArrays, slot: int) -> np.ndarray:
+        """Return the ends (2 E, 3) of what a node draws, of edges both of whose ends are finite."""
+        pose = placing_poses(arrays, np.array([slot], np.int32))
+        if self._instances is not None:
+            pose = linalg.multiply(pose[0], self._instances)
+        with np.errstate(over="ignore", invalid="ignore"):
+            placed = [linalg.transform_points(one, self._ends) for one in pose]
+        return _finite(np.concatenate(placed))
 
 
 def _is_closed(obj: Any) -> bool:
@@ -155,16 +218,6 @@ def _finite(ends: np.ndarray) -> np.ndarray:
         return ends
     kept = np.isfinite(ends.reshape(-1, 6)).all(axis=1)
     return ends.reshape(-1, 2, 3)[kept].reshape(-1, 3)
-
-
-def _poses(shape: Any, poses: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield the world poses, (4, 4), at which a mesh is drawn by nodes at given poses."""
-    if not isinstance(shape, InstancedMesh):
-        yield from poses
-        return
-    instances = instance_matrices(shape.poses)
-    for pose in poses:
-        yield from linalg.multiply(pose, instances)
 
 
 def _things(objects: Iterable[Any]) -> dict[Any, None]:

@@ -10,7 +10,7 @@ import dataclasses
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypeAlias, get_args
 
-from ..base.calls import refuse_unknown
+from ..base.calls import hints_keywords, refuse_unknown
 from ..base.numbers import shown
 from ..base.validation import choose, flag, not_negative
 from ..choices import Backdrop, ColorLike, LightSetup, LightShadow, LookName, ToneMapping
@@ -26,6 +26,7 @@ _BACKDROPS = get_args(Backdrop)
 _TONE_MAPPINGS = get_args(ToneMapping)
 
 
+@hints_keywords
 @dataclass(frozen=True, kw_only=True)
 class Look:
     """How models are lit, and what they stand before.

@@ -145,7 +145,6 @@ class Renderer(rendering.Renderer):
         """Change the size of future frames."""
         with self._turn.taken(staging=True):
             super().resize(size)
-            self._of_thread = threading.local()
 
     def close(self) -> None:
         """Free the renderer's memory; frames stay valid. Drawing afterwards raises an error."""

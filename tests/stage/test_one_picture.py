@@ -182,8 +182,9 @@ def test_a_kept_renderer_draws_as_a_fresh_one(thing):
         camera = e3d.frame_scene(thing, aspect=SIZE[0] / SIZE[1], direction=(1, -1, -1))
         seen = kept.render(thing, camera).color.copy()
         same(e3d.render(thing, camera, size=SIZE).color, seen)
-        kept.resize((80, 80))
-        same(e3d.render(thing, size=(80, 80)).color, kept.render(thing).color)
+        for size in ((80, 80), (300, 60), (40, 200), SIZE):
+            kept.resize(size)
+            same(e3d.render(thing, size=size).color, kept.render(thing).color)
 
 
 def test_changes_of_things_show(tmp_path):
@@ -209,7 +210,8 @@ def test_a_kept_renderer_stages_a_thing_once(monkeypatch):
     monkeypatch.setattr(kept_stages, "viewed_of", lambda thing: calls.append(1) or opened(thing))
     mesh = e3d.torus()
     with e3d.Renderer(SIZE) as renderer:
-        for _ in range(3):
+        for size in (SIZE, SIZE, (80, 80), SIZE):
+            renderer.resize(size)
             renderer.render(mesh)
     assert len(calls) == 1
 

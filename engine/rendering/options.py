@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, get_args
 from .._native import rasterizer as _native
 from ..base.calls import Function, checks_types, hints_keywords, refuse_unknown
 from ..base.numbers import real, shown
-from ..base.validation import choose, flag, is_one_of, one_of, optional_positive
+from ..base.validation import choose, flag, one_of, optional_positive, whole_number
 from ..choices import (
     ColorLike,
     Culling,
@@ -90,9 +90,7 @@ def _strength(value: float, what: str) -> float:
 
 
 def _depth(value: int, what: str) -> int:
-    if not is_one_of(value, range(_MAX_DEPTH + 1)):
-        raise InvalidArgumentError(f"{what} must be 0 to {_MAX_DEPTH}, not {value!r}")
-    return int(value)
+    return whole_number(value, what, 0, _MAX_DEPTH)
 
 
 def _option(default: Any, check: Check, core: str = "", numbers: Numbers | None = None) -> Any:

@@ -61,7 +61,13 @@ class Mirrors(Pass):
         axis, multiple = self.tools.samples
         samples = picture.size[0] * axis, picture.size[1] * axis
         part = part_of(plane, picture.view, samples)
-        if part is None or max(part.width, part.height) > MAX_SIZE:
+        if part is None:
+            return None
+        if max(part.width, part.height) > MAX_SIZE:
+            self._finder.warn(
+                f"a mirror that shows on {part.width}x{part.height} samples looks as without "
+                f"Material.mirror: they may be {MAX_SIZE} a side; fewer pixels or samples help"
+            )
             return None
         is_small = _FINER * max(part.width, part.height) <= MAX_SIZE
         scale = _FINER if multiple and is_small else 1

@@ -49,7 +49,9 @@ class Mirrors(Pass):
             fineness = self.tools.samples[0] * view.scale
             options = as_mirrored(picture.options, fineness)
             shot = self._shot(picture, view, fineness)
-            radiance = self._painter(len(picture.mirrors)).radiance(scene, options, shot)
+            painter = self._painter(len(picture.mirrors))
+            radiance = painter.radiance(scene, options, shot)
+            self.tools.memory.add_mirror(painter.memory)
             numbers = (*plane.normal.tolist(), plane.offset)
             place = view.part.left, view.part.top, view.scale
             picture.mirrors.append((numbers, slack, *place, radiance))

@@ -234,7 +234,8 @@ class Staging:
         look = self.settings.look
         if not self.viewed.themed or (look.lights is None and not look.ground):
             return None
-        return Studio(self.scene, UP_DIRECTIONS[self.up], self._ambient, self.viewed.places)
+        up, reflects = UP_DIRECTIONS[self.up], look.ground == "mirror"
+        return Studio(self.scene, up, self._ambient, self.viewed.places, reflects)
 
     def _make_edges(self) -> FeatureLines | None:
         """Return the feature edges of the model; None if the look draws none."""
@@ -280,9 +281,10 @@ class Staging:
         if studio is not None and self._has_ground:
             if is_plain and not self._transparent:
                 light = self.lighting.main_direction()
-                studio.lay_shadow(self.viewed.bounds, view, light, appearance.cull)
+                mirrors = appearance.mode == "lit" and appearance.mirror_depth > 0
+                studio.lay_ground(self.viewed.bounds, view, light, appearance.cull, mirrors)
             else:
-                studio.show_shadow(False)
+                studio.hide_ground()
         self.box.follow(view.position(), self.settings.axes_grid and not split)
 
     def choose_theme(self, view: AnyView, draw_alone: Callable[[AnyView], np.ndarray]) -> None:
@@ -296,7 +298,7 @@ class Staging:
         if not self._chooses_theme:
             return
         if self._studio is not None:
-            self._studio.show_shadow(False)
+            self._studio.hide_ground()
         if self._edges is not None:
             self._edges.show(False)
         self.alone = alone = None if self.settings.keeps_theme else draw_alone(view)
@@ -306,7 +308,7 @@ class Staging:
     @property
     def _has_ground(self) -> bool:
         """Whether the model casts a shadow on the ground."""
-        return self._studio is not None and self.settings.look.ground
+        return self._studio is not None and self.settings.look.ground is not False
 
     @property
     def theme(self) -> Theme:

@@ -110,6 +110,16 @@ def test_modes_are_those_of_the_command(mode, tmp_path):
         same(shown, renderer.render(scene, framed, options=options, out=frame).color)
 
 
+def test_changes_of_a_look_are_those_of_the_command(tmp_path):
+    path = DATA / "teapot.obj"
+    options = ("--ground", "mirror", "--feature-edges")
+    look = e3d.Look.studio(ground="mirror", feature_edges=True)
+    same(by_command(path, tmp_path, *options), e3d.render(path, size=SIZE, look=look).color)
+    plain = by_command(path, tmp_path, "--ground", "none", "--no-feature-edges")
+    look = e3d.Look.studio(ground=False, feature_edges=False)
+    same(plain, e3d.render(path, size=SIZE, look=look).color)
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_sheets_show_files_as_render_does(path):
     if not path.exists():

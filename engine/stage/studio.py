@@ -25,8 +25,8 @@ from ..model.scene.ambient_lights import AmbientLight
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
-from .ground_shadow import REACH, SIDE, GroundShadow, slant_along, usual_slant
-from .mirror_floor import MirrorFloor
+from .ground.ground_shadow import REACH, SIDE, GroundShadow, slant_along, usual_slant
+from .ground.mirror_floor import MirrorFloor
 from .overlays.theme import DARK, LIGHT, Theme
 from .views.camera_view import AnyView
 from .views.viewpoint import Sphere

@@ -10,7 +10,7 @@ from engine3d.model.motion.clips import AnimationClip, Channel
 from engine3d.model.scene.orbiting import home_axes
 from engine3d.model.scene.staged_scene import StagedScene
 from engine3d.model.scene.surroundings import SCENE_VALUES
-from engine3d.stage.ground_shadow import SIDE, GroundShadow, slant_along, usual_slant
+from engine3d.stage.ground.ground_shadow import SIDE, GroundShadow, slant_along, usual_slant
 from engine3d.stage.overlays.theme import DARK, LIGHT
 from engine3d.stage.played_clips import play_clips
 from engine3d.stage.stage_settings import Settings

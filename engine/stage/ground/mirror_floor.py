@@ -10,11 +10,11 @@ import functools
 
 import numpy as np
 
-from ..model.geometry.mesh import Mesh
-from ..model.materials.material import Material
-from ..model.materials.textures import Texture
-from ..model.scene.nodes import Node
-from ..model.scene.staged_scene import StagedScene
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
+from ...model.materials.textures import Texture
+from ...model.scene.nodes import Node
+from ...model.scene.staged_scene import StagedScene
 
 #: Half a side, in radii of the model; at this distance nothing is reflected any more.
 _REACH = 3.0

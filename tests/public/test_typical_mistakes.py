@@ -49,6 +49,7 @@ MISTAKES = [
     (assign(node, "position", (1, 2, 3)), "did you mean translation"),
     (assign(node, "lookAt", (1, 2, 3)), "look_at"),
     (assign(node, "anything", 1), "no attribute 'anything'"),
+    (assign(lambda: e3d.Canvas((4, 4)), "pixel", 1), "did you mean pixels"),
     (lambda: node().visble, "no attribute 'visble'"),
     (lambda: scene().lights, "scene.nodes"),
     (assign(e3d.Scene, "bg_color", (1, 1, 1)), "did you mean background"),

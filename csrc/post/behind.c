@@ -13,9 +13,10 @@
 #include "base/pool.h"
 #include "base/vectors.h"
 #include "data/behind_levels.h"
-#include "data/srgb_tables.h"
+#include "data/code_light.h"
 #include "data/tone_tables.h"
 #include "kernels/kernels.h"
+#include "post/rows.h"
 #include "reference/reference.h"
 
 enum { ROWS_AT_ONCE = 8,
@@ -94,12 +95,6 @@ static void fill_row(const behind_job *job, int32_t y)
 
 /* ---- further levels ---- */
 
-static int32_t within(int32_t i, int32_t side)
-{
-    i = i > 0 ? i : 0;
-    return i < side - 1 ? i : side - 1;
-}
-
 static inline float4 filter(float4 a, float4 b, float4 c, float4 d) { return ((a + d) + (b + c) * splat(3.0f)) * splat(0.125f); }
 
 /* Column x of four rows. */
@@ -149,8 +144,7 @@ static void find_levels(const e3d_behind *picture, const e3d_kernels *kernels, i
 {
     behind_job job = {.kernels = kernels, .picture = picture, .texels = levels};
     int count = e3d_behind_levels(picture->width, picture->height, job.level);
-    for (int c = 0; c < 256; c++)
-        job.decode[c] = picture->srgb ? (float)SRGB_TO_LINEAR16[c] * E3D_UNORM16 : (float)c * E3D_UNORM8;
+    e3d_light_of_codes(picture->srgb, job.decode);
     for (job.number = 0; job.number < count; job.number++) {
         atomic_store(&job.next, 0);
         e3d_pool_run(job.level[job.number].height > ROWS_AT_ONCE ? threads : 1, work, &job);

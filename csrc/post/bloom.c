@@ -12,9 +12,10 @@
 #include "base/fpenv.h"
 #include "base/limits.h"
 #include "base/pool.h"
-#include "data/srgb_tables.h"
+#include "data/code_light.h"
 #include "e3d_bloom.h"
 #include "kernels/kernels.h"
+#include "post/rows.h"
 #include "reference/reference.h"
 
 enum { CHANNELS = E3D_BLOOM_CHANNELS,
@@ -48,12 +49,6 @@ size_t e3d_bloom_scratch(int32_t width, int32_t height, int32_t threads)
     for (int n = 0; n < e3d_bloom_level_count(height); n++)
         floats += CHANNELS * (size_t)e3d_bloom_side(width, n) * (size_t)e3d_bloom_side(height, n);
     return floats + E3D_PAD;
-}
-
-static int32_t within(int32_t y, int32_t height)
-{
-    y = y > 0 ? y : 0;
-    return y < height - 1 ? y : height - 1;
 }
 
 static void halve_radiance(const bloom_job *job, int32_t y, float *rows)
@@ -158,8 +153,7 @@ static void add_bloom(const e3d_bloom *bloom, const e3d_kernels *kernels, int32_
     bloom_job job = {.kernels = kernels, .bloom = bloom, .row = row_floats(bloom->width), .bright = &bright};
     job.rows = place_levels(bloom, count, scratch, levels);
     job.scale = bloom->strength * (1.0f / (float)count);
-    for (int c = 0; c < 256; c++)
-        job.decode[c] = bloom->srgb ? (float)SRGB_TO_LINEAR16[c] * E3D_UNORM16 : (float)c * E3D_UNORM8;
+    e3d_light_of_codes(bloom->srgb, job.decode);
     run(&job, threads, NULL, &levels[0], levels[0].height, halve_radiance);
     if (!atomic_load(&bright))
         return;

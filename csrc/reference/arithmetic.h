@@ -22,6 +22,14 @@ static inline float ref_clamp(float v, float lo, float hi)
     return t < hi ? t : hi;
 }
 
+/* The number of a row or column, or that of the one at the edge beyond which it lies. */
+static inline int32_t ref_within(int32_t i, int32_t side)
+{
+    if (i < 0)
+        return 0;
+    return i < side ? i : side - 1;
+}
+
 static inline int32_t ref_rint(float v) { return (int32_t)lrintf(v); }
 
 static inline float ref_floor(float v)

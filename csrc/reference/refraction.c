@@ -122,17 +122,11 @@ static behind behind_of(const e3d_frame *frame)
     return out;
 }
 
-static int32_t within(int32_t i, int32_t side)
-{
-    i = i > 0 ? i : 0;
-    return i < side ? i : side - 1;
-}
-
 static float texel(const behind *b, int level, int32_t x, int32_t y, int channel)
 {
     const e3d_behind_level *l = &b->level[level];
-    x = within(x, l->width);
-    y = within(y, l->height);
+    x = ref_within(x, l->width);
+    y = ref_within(y, l->height);
     return b->texels[l->first + 4 * ((size_t)y * (size_t)l->width + (size_t)x) + (size_t)channel];
 }
 

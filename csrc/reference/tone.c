@@ -3,8 +3,8 @@
  * Rules: R117 ... R121, and the colours of a gradient, R122. */
 #include <string.h>
 
-#include "data/srgb_tables.h"
 #include "data/tone_tables.h"
+#include "reference/decoding.h"
 #include "reference/surface.h"
 
 static void limit(float color[3])
@@ -141,6 +141,6 @@ void ref_gradient(const e3d_frame *frame, int32_t x, int32_t y, float out[3])
     for (int c = 0; c < 3; c++) {
         float v = (gradient->top[c] + (gradient->bottom[c] - gradient->top[c]) * t) * 255.0f;
         int32_t code = (int32_t)ref_min(v + threshold, 255.0f);
-        out[c] = is_srgb ? (float)SRGB_TO_LINEAR16[code] * E3D_UNORM16 : (float)code * E3D_UNORM8;
+        out[c] = ref_decode(code, is_srgb);
     }
 }

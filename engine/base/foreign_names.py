@@ -7,9 +7,10 @@ other names are treated as possible typos.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Iterable
 from typing import Any, NoReturn, TypeVar
+
+from .near_words import nearest
 
 Kind = TypeVar("Kind", bound=type)
 
@@ -306,8 +307,8 @@ def hint(owner: str | type, name: str, known: Iterable[str]) -> str:
             here = _NAMES[each][name]
             return f": {here}" if here.startswith("its ") else f": did you mean {here}?"
     names = {each.rpartition(".")[2]: each for each in reversed(list(known)) if each[0] != "_"}
-    near = difflib.get_close_matches(name, names, 1, 0.75)
-    return f": did you mean {names[near[0]]}?" if near else ""
+    near = nearest(name, names)
+    return "" if near is None else f": did you mean {names[near]}?"
 
 
 def foreign_names(kind: type) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 In: a caller's value. Out: the checked value, or an `InvalidArgumentError`. Assigning a
 `CheckedAttribute` increases its owner's ``version``, so the renderer knows to rebuild its own data.
-Attributes that a `Closed` class does not declare cannot be assigned.
+Attributes that a class with `FixedNames` does not declare cannot be assigned.
 """
 
 from __future__ import annotations
@@ -29,22 +29,11 @@ Given = TypeVar("Given")
 Kept = TypeVar("Kept")
 
 
-class Closed:
+class FixedNames:
     """Base of classes that refuse undeclared public attributes, so that a typo is an error.
 
-    Annotations declare the attributes of instances; a subclass may declare more. Copies and
-    unpickled objects also hold read-only arrays, and their own lists and dicts.
+    Annotations declare the attributes of instances; a subclass may declare more.
     """
-
-    _FORGOTTEN: tuple[
-        str, ...
-    ] = ()  # attributes recomputed in a copy; the class has their initial values
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {key: self.__dict__[key] for key in self.__dict__ if key not in self._FORGOTTEN}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update({key: own(value) for key, value in state.items()})
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -59,6 +48,23 @@ class Closed:
             if name[0] != "_" and not hasattr(kind, name) and name not in _declared(kind):
                 raise UnknownName(kind, name)
             object.__setattr__(self, name, value)
+
+
+class Closed(FixedNames):
+    """Base of classes with fixed names whose copies are their own.
+
+    Copies and unpickled objects hold read-only arrays, and their own lists and dicts.
+    """
+
+    _FORGOTTEN: tuple[
+        str, ...
+    ] = ()  # attributes recomputed in a copy; the class has their initial values
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: self.__dict__[key] for key in self.__dict__ if key not in self._FORGOTTEN}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update({key: own(value) for key, value in state.items()})
 
 
 class Versioned(Closed):

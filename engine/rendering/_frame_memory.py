@@ -5,7 +5,7 @@ allocation, that lists the largest parts and says what to change.
 
 A frame's outputs may take all the machine's memory. Everything else is limited by `MAX_FRAME_BYTES`
 of options.py, which a program may raise, plus `BYTES_A_PIXEL` for each pixel, which always covers
-what scales with the picture.
+what scales with the picture. What mirrors show counts as well, with its own pixels.
 """
 
 from __future__ import annotations
@@ -51,13 +51,20 @@ class FrameMemory:
         Samples of a pixel along each axis; multisamples of each, 0 without.
     threads : int
         0: all.
+    around : FrameMemory, optional
+        That of the picture which shows this one in a mirror.
     """
 
-    def __init__(self, axis: int, multiple: int, threads: int) -> None:
+    def __init__(
+        self, axis: int, multiple: int, threads: int, around: FrameMemory | None = None
+    ) -> None:
         self._axis, self._multiple, self._threads = axis, multiple, threads or thread_count()
         self._size = 0, 0
         self._of_options: list[Use] = []
         self._of_maps: list[Use] = []
+        self._around = around
+        self._of_mirrors: list[Use] = []
+        self._mirrored_pixels = 0
 
     def check(self, outputs: tuple[str, ...], size: tuple[int, int], uses: list[Use]) -> list[Use]:
         """Return the memory of a frame with given outputs, and of its passes.
@@ -70,12 +77,20 @@ class FrameMemory:
         _check_outputs(outputs, *size)
         uses = uses + self._uses_of(*size)
         self.begin(size, uses)
-        self._check(uses)
+        self._check()
         return uses
 
     def begin(self, size: tuple[int, int], uses: list[Use]) -> None:
         """Begin a frame with this memory and no shadow maps so far."""
         self._size, self._of_options, self._of_maps = size, uses, []
+        self._of_mirrors, self._mirrored_pixels = [], 0
+        if self._around is not None:
+            self._check()
+
+    def add_mirror(self, shown: FrameMemory) -> None:
+        """Add the memory of a picture that a mirror shows."""
+        self._of_mirrors += shown._uses
+        self._mirrored_pixels += shown._pixels
 
     def add(self, use: Use) -> None:
         """Add memory that a pass found to need.
@@ -86,7 +101,7 @@ class FrameMemory:
             The frame would exceed the limit.
         """
         self._of_maps.append(use)
-        self._check(self._of_options + self._of_maps)
+        self._check()
 
     def add_maps(self, lights: Iterable[tuple[str, int, int]]) -> None:
         """Add shadow maps: for each light its kind, the number of maps, and texels per side.
@@ -100,7 +115,7 @@ class FrameMemory:
             size = _FLOAT * maps * side * side * times
             what = f"shadow maps of {side}x{side} ({times} of kind {kind}, {maps} maps each)"
             self._of_maps.append(Use(size, what, "a smaller shadow_map_size"))
-        self._check(self._of_options + self._of_maps)
+        self._check()
 
     def add_exact(self, lights: int, faces: int) -> None:
         """Add exact shadows of given numbers of faces and lights.
@@ -112,8 +127,15 @@ class FrameMemory:
         """
         size = faces * (_CASTER + lights * _CASTER_OF_LIGHT)
         what = f"exact shadows ({lights} lights, {faces} faces that may hide them)"
-        exact = Use(size, what, "shadow='map', or fewer nodes that cast shadows")
-        self._check([*self._of_options, *self._of_maps, exact])
+        self.add(Use(size, what, "shadow='map', or fewer nodes that cast shadows"))
+
+    @property
+    def _uses(self) -> list[Use]:
+        return self._of_options + self._of_maps + self._of_mirrors
+
+    @property
+    def _pixels(self) -> int:
+        return math.prod(self._size) + self._mirrored_pixels
 
     def _uses_of(self, width: int, height: int) -> list[Use]:
         planes = self._multiple or 1
@@ -127,10 +149,14 @@ class FrameMemory:
             uses.append(Use(size, what, "fewer samples or threads"))
         return uses
 
-    def _check(self, uses: list[Use]) -> None:
-        width, height = self._size
+    def _check(self) -> None:
+        uses, pixels, whole = self._uses, self._pixels, self
+        while whole._around is not None:
+            whole = whole._around
+            uses, pixels = uses + whole._uses, pixels + whole._pixels
+        width, height = whole._size
         total = sum(use.size for use in uses)
-        limit = limits.MAX_FRAME_BYTES + BYTES_A_PIXEL * width * height
+        limit = limits.MAX_FRAME_BYTES + BYTES_A_PIXEL * pixels
         if total <= limit:
             return
         largest = sorted((use for use in uses if use.size * _SHOWN >= total), reverse=True)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .._native.rasterizer import NativeRenderer
 from ..choices import ColorSpace
 from ..model.scene.staged_scene import AnyScene
-from ._frame_memory import FrameMemory
+from ._frame_memory import FrameMemory, Use
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
 from ._turn import RendererTurn
@@ -41,20 +41,24 @@ class Painter:
     how : How
     turn : RendererTurn
         Of the renderer, whose caller holds it.
+    around : FrameMemory, optional
+        That of the picture which shows this one's in a mirror.
 
     Attributes
     ----------
+    memory : FrameMemory
     native : NativeRenderer
     draw_list : DrawList
     options : OptionsCache
     passes : Passes
     """
 
-    def __init__(self, how: How, turn: RendererTurn) -> None:
+    def __init__(self, how: How, turn: RendererTurn, around: FrameMemory | None = None) -> None:
         backend, threads, color_space, samples = how
         self.native = NativeRenderer(backend, threads)
         self.draw_list = DrawList(color_space, threads)
         self.options = OptionsCache(color_space, threads)
+        self.memory = FrameMemory(*samples, threads, around)
         self._how, self._turn = how, turn
         self._pool = OutputPool()
         turn.hold(self.native)
@@ -62,7 +66,7 @@ class Painter:
             Tools(
                 self.native,
                 self.draw_list,
-                FrameMemory(*samples, threads),
+                self.memory,
                 backend,
                 threads,
                 color_space == "srgb",
@@ -73,7 +77,7 @@ class Painter:
 
     def another(self) -> Painter:
         """Return a painter with one sample per pixel."""
-        return Painter(self._how._replace(samples=(1, 0)), self._turn)
+        return Painter(self._how._replace(samples=(1, 0)), self._turn, self.memory)
 
     def look(
         self, scene: AnyScene, options: RenderOptions, listed: tuple[str, ...], shot: Shot
@@ -100,6 +104,7 @@ class Painter:
         """Return the radiance of a picture, (height, width, 3)."""
         plan = self.passes.plan(options, ("radiance",), shot.size)
         outputs = self._pool.take(plan.outputs)
+        self.memory.add(Use(outputs["radiance"].nbytes, "a mirror", "fewer pixels"))
         picture = self.look(scene, options, plan.listed, shot)
         picture.targets, picture.arrays = self.passes.arrays(plan, outputs)
         for one in plan.passes:

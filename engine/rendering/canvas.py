@@ -18,10 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native import canvas as native
 from .._native.images import encode_png
-from ..base.calls import hints_keywords
 from ..base.image_size import sides_of
 from ..base.numbers import as_array, floats, real, shown
-from ..base.validation import choose, flag
+from ..base.validation import FixedNames, choose, flag
 from ..choices import ColorLike
 from ..errors import InvalidArgumentError
 from ..model.materials.colors import eight_bit_or_linear, holds_colors, srgb_bytes
@@ -41,8 +40,7 @@ _FONT_CODES |= {ord(letter): code for code, letter in enumerate("àâçèéêë�
 _REPLACEMENT_CODE = 127
 
 
-@hints_keywords
-class Canvas:
+class Canvas(FixedNames):
     """A 2-D drawing surface.
 
     Parameters

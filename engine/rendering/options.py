@@ -10,12 +10,12 @@ import functools
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, get_args
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, cast, get_args
 
 from .._native import rasterizer as _native
 from ..base.calls import Function, checks_types, hints_keywords, refuse_unknown
 from ..base.numbers import real, shown
-from ..base.validation import choose, flag, is_one_of, one_of, optional_positive
+from ..base.validation import choose, flag, one_of, optional_positive, whole_number
 from ..choices import (
     ColorLike,
     Culling,
@@ -24,6 +24,7 @@ from ..choices import (
     LineShape,
     Mode,
     Normals,
+    OutputMode,
     PointShape,
     Shading,
     SizeUnit,
@@ -46,6 +47,8 @@ Numbers: TypeAlias = Mapping[Any, float]
 #: Bytes that a frame may take besides its outputs and a few bytes per pixel: docs/reliability.md.
 MAX_FRAME_BYTES = 1 << 30
 WHITE = (1.0, 1.0, 1.0)
+OUTPUT_MODES: tuple[OutputMode, ...] = get_args(OutputMode)
+MODES: tuple[Mode | OutputMode, ...] = (*get_args(Mode), *OUTPUT_MODES)
 MAX_LINE = 256.0  # pixels: the widest line, the largest point
 _MAX_BLOOM = 100.0
 _MAX_DEPTH = 8
@@ -66,6 +69,13 @@ def check_outputs(outputs: Iterable[str]) -> tuple[Output, ...]:
 def shows_light(outputs: Iterable[str]) -> bool:
     """Return whether the outputs show light, so that shadows and lighting must be computed."""
     return "color" in outputs or "radiance" in outputs
+
+
+def drawn_mode(mode: Mode | OutputMode) -> Mode:
+    """Return the mode that the core draws for one: an output is painted over the picture."""
+    if mode in OUTPUT_MODES:
+        return "lit" if mode == "radiance" else "unlit"
+    return cast(Mode, mode)
 
 
 def size_in_picture(pixels: float, height: int) -> float:
@@ -90,9 +100,7 @@ def _strength(value: float, what: str) -> float:
 
 
 def _depth(value: int, what: str) -> int:
-    if not is_one_of(value, range(_MAX_DEPTH + 1)):
-        raise InvalidArgumentError(f"{what} must be 0 to {_MAX_DEPTH}, not {value!r}")
-    return int(value)
+    return whole_number(value, what, 0, _MAX_DEPTH)
 
 
 def _option(default: Any, check: Check, core: str = "", numbers: Numbers | None = None) -> Any:
@@ -111,7 +119,7 @@ def _choice(default: str | None, numbers: Numbers, core: str) -> Any:
 class OptionKeywords(TypedDict, total=False):
     """The fields of `RenderOptions` as keyword arguments, for type checkers."""
 
-    mode: Mode
+    mode: Mode | OutputMode
     wireframe: Wireframe | None
     cull: FrameCull
     shading: Shading
@@ -156,9 +164,14 @@ class RenderOptions:
 
     Parameters
     ----------
-    mode : {"lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw"}
-        What the colour shows: lit surfaces, unlit surface colours, a random colour per triangle,
-        nearness, view-space normals, IDs as colours, or how often each pixel was covered.
+    mode : str
+        What the colour shows: ``"lit"`` surfaces, ``"unlit"`` surface colours, a ``"random"``
+        colour per triangle, nearness as ``"depth"``, view-space normals as ``"normal"``, IDs as
+        ``"face_id"`` and ``"object_id"``, or how often each pixel was covered, ``"overdraw"``. An
+        output is painted over the surfaces, and added to the frame together with ``depth``:
+        ``"albedo"``, ``"position"``, ``"world_position"``, ``"world_normal"``, ``"uv"``,
+        ``"barycentric"``, ``"metallic_roughness"``, ``"emissive"``, ``"tangent"``, ``"radiance"``,
+        ``"instance_id"`` or ``"material_id"``.
     wireframe : {None, "overlay", "only"}
         Draw the visible edges over the picture, or instead of its faces.
     cull : {"back", "front", "none", "auto"}
@@ -238,7 +251,7 @@ class RenderOptions:
     InvalidArgumentError
     """
 
-    mode: Mode = _choice("lit", _native.MODES, "mode")
+    mode: Mode | OutputMode = _option("lit", one_of(MODES), "mode", _native.MODES)
     wireframe: Wireframe | None = _choice(None, _native.WIREFRAMES, "wireframe")
     cull: FrameCull = _choice("auto", {**_native.CULLS, "auto": _native.CULLS["back"]}, "cull")
     shading: Shading = _choice("deferred", _native.SHADINGS, "shading")

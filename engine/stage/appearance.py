@@ -9,11 +9,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import fields
 from types import SimpleNamespace
-from typing import Any, TypeVar, cast, get_args
+from typing import Any, TypeVar, cast
 
 from ..base import linalg
 from ..base.calls import refuse_unknown
-from ..choices import Color, Mode, OutputMode
+from ..choices import Color
 from ..model.environments.environment import Environment
 from ..model.geometry.mesh import Mesh
 from ..model.materials.colors import linear_color
@@ -22,9 +22,8 @@ from ..model.scene.gradients import Gradient
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
 from ..model.scene.surroundings import Background
-from ..rendering.options import WHITE, RenderOptions
+from ..rendering.options import MODES, WHITE, RenderOptions, drawn_mode
 
-MODES = (*get_args(Mode), *get_args(OutputMode))
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)
 #: Points are this fraction of the distance between points spread evenly over the picture. They are
 #: at least one pixel of a picture this high, and at most this many such pixels.
@@ -73,10 +72,7 @@ class Appearance(SimpleNamespace):
         point_size : float
             The automatic size for the scene and picture.
         """
-        arguments = dict(vars(self))
-        if self.mode in get_args(OutputMode):
-            # The output is painted over it.
-            arguments["mode"] = "lit" if self.mode == "radiance" else "unlit"
+        arguments = dict(vars(self)) | {"mode": drawn_mode(self.mode)}
         if self.line_color is None:
             alone = self.wireframe == "only"
             arguments["line_color"] = contrasting(background) if alone else DARK

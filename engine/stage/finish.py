@@ -4,6 +4,7 @@ In: a material. Out: the material that is drawn instead; the model keeps its own
 models of Lambert and Phong become dielectrics, like paint or plastic. Otherwise they would reflect
 nothing, while Khronos's neutral tone mapping takes off what a white dielectric reflects in a white
 room: dark colours would turn black, and the same model would look another way from a file of glTF.
+Mirrors stay as they are: a dielectric would hardly mirror.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ class StudioFinish:
     colors: bool
 
     def __call__(self, material: Material, tinted: bool) -> Material:
-        if material.unlit:
+        if material.unlit or material.mirror:
             return material
         is_clay = self.colors and not tinted and states_nothing(material)
         is_changed = is_clay or (self.reflects and not material.is_physical)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import os
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -28,11 +28,26 @@ from .coloring import show_numbers
 from .look import Look
 from .overlays.numbers import NO_MARKS, Marks
 from .view_renderer import ViewRenderer
+from .viewed_scene import ViewedScene
 from .viewed_thing import settings_for, viewed_of
 from .views.viewpoint import Viewpoint
 
 #: Number of stages that a renderer keeps.
 KEPT = 4
+
+
+class Changes(Protocol):
+    """Tells what has happened to a thing, as `SceneChanges` does."""
+
+    @property
+    def any(self) -> bool:
+        """Whether the thing has changed, or whether changes cannot be noticed."""
+
+    def take_moves(self) -> bool:
+        """Return whether nothing more has happened than that nodes moved.
+
+        Then they are where they are, and no longer count as changed.
+        """
 
 
 class Stage(NamedTuple):
@@ -42,19 +57,15 @@ class Stage(NamedTuple):
     ----------
     thing : object
         It is held, so that no other thing gets its identity.
-    has_changed : callable
-        Returns whether the thing has changed since, or whether changes cannot be noticed.
-    take_moves : callable
-        Returns whether nothing more has happened than that nodes moved; then they are where they
-        are, and no longer count as changed.
+    changes : Changes
+        Those of the thing since.
     view_renderer : ViewRenderer
     first : Viewpoint
         Its first view, as of ``engine3d render``.
     """
 
     thing: Any
-    has_changed: Callable[[], bool]
-    take_moves: Callable[[], bool]
+    changes: Changes
     view_renderer: ViewRenderer
     first: Viewpoint
 
@@ -99,8 +110,8 @@ class KeptStages:
         known = self._kept.get(key)
         if known is None:
             known = self._kept[key] = self._staged(thing, options, NO_MARKS)
-        elif known.has_changed():
-            known = self._kept[key] = _moved(known) or self._staged(thing, options, NO_MARKS)
+        elif known.changes.any or known.view_renderer.size != self._renderer.size:
+            known = self._kept[key] = self._renewed(known) or self._staged(thing, options, NO_MARKS)
         self._kept.move_to_end(key)
         while len(self._kept) > KEPT:
             self._kept.popitem(last=False)
@@ -109,7 +120,7 @@ class KeptStages:
     @np.errstate(all="ignore")
     def _staged(self, thing: Any, options: Mapping[str, Any], marks: Marks) -> Stage:
         files: dict[str, FileState] = {}
-        noticing = _noticing(thing, files)  # from before the thing is read
+        changes = _changes_of(thing, files)  # from before the thing is read
         if isinstance(thing, str):
             files[thing] = FileState(thing)
         with found_files(lambda path: files.setdefault(path, FileState(path))):
@@ -129,23 +140,24 @@ class KeptStages:
             renderer=self._renderer,
             **self._drawing,
         )
-        return Stage(thing, *noticing, view_renderer, view_renderer.filling_view())
+        return Stage(thing, changes, view_renderer, view_renderer.filling_view())
+
+    @np.errstate(all="ignore")
+    def _renewed(self, stage: Stage) -> Stage | None:
+        """Return a stage for where the nodes of its scene are now, and for the renderer's size.
+
+        None: more has changed.
+        """
+        view_renderer, changes = stage.view_renderer, stage.changes
+        if not view_renderer.staging.can_renew or (changes.any and not changes.take_moves()):
+            return None
+        view_renderer.resize(self._renderer.size)
+        view_renderer.renew()
+        return stage._replace(first=view_renderer.filling_view())
 
 
-@np.errstate(all="ignore")
-def _moved(stage: Stage) -> Stage | None:
-    """Return a stage for where the nodes of its scene are now; None if more has changed."""
-    view_renderer = stage.view_renderer
-    if not view_renderer.staging.can_renew or not stage.take_moves():
-        return None
-    view_renderer.renew()
-    return stage._replace(first=view_renderer.filling_view())
-
-
-def _noticing(
-    thing: Any, files: Mapping[str, FileState]
-) -> tuple[Callable[[], bool], Callable[[], bool]]:
-    """Return the `has_changed` and `take_moves` of a stage.
+def _changes_of(thing: Any, files: Mapping[str, FileState]) -> Changes:
+    """Return the changes of a thing from now on.
 
     Parameters
     ----------
@@ -154,18 +166,43 @@ def _noticing(
         The states of the files that a path leads to, found while it is opened.
     """
     if isinstance(thing, str):
-        return lambda: any(file.changed() for file in files.values()), _never
-    if isinstance(thing, Scene):
-        changes = SceneChanges(thing)
-        return lambda: changes.any, changes.take_moves
-    if not isinstance(thing, (Mesh, InstancedMesh)):
-        return lambda: True, _never
-    before = _versions(thing)
-    return lambda: _versions(thing) != before, _never
+        return _FileChanges(files)
+    if isinstance(thing, (Scene, ViewedScene)):
+        return SceneChanges(thing if isinstance(thing, Scene) else thing.scene)
+    return _MeshChanges(thing) if isinstance(thing, (Mesh, InstancedMesh)) else _Unnoticed()
 
 
-def _never() -> bool:
-    return False
+class _Unnoticed:
+    """The changes of things that tell nothing of them."""
+
+    @property
+    def any(self) -> bool:
+        return True
+
+    def take_moves(self) -> bool:
+        return False
+
+
+class _FileChanges(_Unnoticed):
+    """The changes of files."""
+
+    def __init__(self, files: Mapping[str, FileState]) -> None:
+        self._files = files
+
+    @property
+    def any(self) -> bool:
+        return any(file.changed() for file in self._files.values())
+
+
+class _MeshChanges(_Unnoticed):
+    """The changes of a mesh, or of its instances."""
+
+    def __init__(self, thing: Mesh | InstancedMesh) -> None:
+        self._thing, self._before = thing, _versions(thing)
+
+    @property
+    def any(self) -> bool:
+        return _versions(self._thing) != self._before
 
 
 def _versions(thing: Mesh | InstancedMesh) -> tuple[Any, ...]:

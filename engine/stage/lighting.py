@@ -270,7 +270,24 @@ def _main_lights(lights: Sequence[DirectLight]) -> list[DirectLight]:
     return main + (lamps if len(lamps) <= _MOST_LAMPS else [])
 
 
-def light_around(look: Look, staged: StagedScene) -> tuple[AmbientLight | None, float]:
+def light_in(
+    look: Look, staged: StagedScene, up: ArrayLike, first: str, intensity: float = 1.0
+) -> tuple[Lighting, AmbientLight | None]:
+    """Return the lighting of a scene in a look, and the light from all around that belongs to it.
+
+    Parameters
+    ----------
+    look, staged, up, first
+        As for `Lighting`.
+    intensity : float
+        Factor for the set-ups, besides the look's own.
+    """
+    ambient, around = _light_around(look, staged)
+    intensity *= look.light_intensity * around
+    return Lighting(staged, up, intensity, first), ambient
+
+
+def _light_around(look: Look, staged: StagedScene) -> tuple[AmbientLight | None, float]:
     """Return the light from all around in a look, and the factor for set-ups beside it.
 
     None: the look has no lights. If the scene has an environment, that is the light instead.

@@ -10,7 +10,7 @@ import dataclasses
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypeAlias, get_args
 
-from ..base.calls import refuse_unknown
+from ..base.calls import hints_keywords, refuse_unknown
 from ..base.numbers import shown
 from ..base.validation import choose, flag, not_negative
 from ..choices import Backdrop, ColorLike, LightSetup, LightShadow, LookName, ToneMapping
@@ -26,6 +26,7 @@ _BACKDROPS = get_args(Backdrop)
 _TONE_MAPPINGS = get_args(ToneMapping)
 
 
+@hints_keywords
 @dataclass(frozen=True, kw_only=True)
 class Look:
     """How models are lit, and what they stand before.
@@ -44,8 +45,9 @@ class Look:
     background : {"auto", "dark", "light", "scene"}, colour, Gradient, Environment or None
         ``"dark"`` and ``"light"`` are gradients, of which ``"auto"`` takes the one that the model
         contrasts with; ``"scene"`` is the scene's own; None is transparent.
-    ground : bool
-        Whether the model casts a soft shadow on an invisible ground.
+    ground : bool or "mirror"
+        Whether the model casts a soft shadow on an invisible ground; ``"mirror"``: which also
+        reflects it, as a polished floor does.
     environment : bool
         Whether surfaces reflect a studio if the scene has no environment: grey walls, a light
         floor, soft boxes.
@@ -63,7 +65,7 @@ class Look:
     lights: LightSetup | None = "studio"
     light_intensity: float = 1.0
     background: Backdrop | ColorLike | Gradient | Environment | None = "auto"
-    ground: bool = True
+    ground: bool | Literal["mirror"] = True
     environment: bool = True
     shadow: LightShadow = "map"
     feature_edges: bool | Literal["auto"] = "auto"
@@ -76,11 +78,12 @@ class Look:
         not_negative(self.light_intensity, "light_intensity")
         choose(self.tone_mapping, _TONE_MAPPINGS, "tone_mapping")
         choose(self.shadow, get_args(LightShadow), "shadow")
-        if isinstance(self.feature_edges, str):
-            choose(self.feature_edges, ("auto",), "feature_edges")
-        else:
-            flag(self.feature_edges, "feature_edges")
-        for name in ("ground", "environment", "ambient_occlusion"):
+        for name, word in (("ground", "mirror"), ("feature_edges", "auto")):
+            if isinstance(getattr(self, name), str):
+                choose(getattr(self, name), (True, False, word), name)
+            else:
+                vars(self)[name] = flag(getattr(self, name), name)
+        for name in ("environment", "ambient_occlusion"):
             flag(getattr(self, name), name)
         vars(self)["background"] = _background(self.background)
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..base import linalg
+from ..base.box_corners import box_corners
 from ..errors import warn
 from ..io.reading.documents import Document
 from ..io.reading.sources import File
@@ -163,9 +164,7 @@ def _row(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:
 
 def _box(viewed: ViewedScene, turn: np.ndarray, axes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the extent of a rotated model along right, up and back: low and high."""
-    low, high = viewed.scene.bounds
-    corners = np.array([[(low, high)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)])
-    points = linalg.transform_points(turn, corners)
+    points = linalg.transform_points(turn, box_corners(viewed.scene.bounds))
     along = np.stack([linalg.dot(points, axis) for axis in axes], axis=1)
     return along.min(axis=0), along.max(axis=0)
 

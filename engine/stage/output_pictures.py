@@ -6,17 +6,14 @@ In: a `Frame` that holds the outputs, and the scene's bounds. Out: (H, W, 3) uin
 from __future__ import annotations
 
 import functools
-from typing import get_args
 
 import numpy as np
 
-from ..choices import OutputMode
 from ..model.materials.colors import srgb_to_linear_table
 from ..rendering.frame import Frame, Output
 from .overlays.theme import Theme
 from .views.viewpoint import Sphere
 
-OUTPUT_MODES = get_args(OutputMode)
 #: This output tells surfaces from background.
 COVERAGE: Output = "depth"
 #: The outputs of the split view, row by row.

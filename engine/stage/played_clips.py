@@ -1,12 +1,13 @@
 """The animations of a viewed model: which clips play, and the extent of their motion.
 
 In: a `ViewedScene` whose scene has clips; a clip number, counted as in f3d, and a time. Out: the
-viewed scene plays the clips, or holds their pose at the time.
+viewed scene plays the clips, or holds their pose at the time, and all of the motion shows.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -55,22 +56,22 @@ def stand_at(viewed: ViewedScene, index: int | None, time: float) -> None:
 
 
 def play_clips(viewed: ViewedScene, index: int | None = None) -> None:
-    """Make a viewed scene play clips in a loop; without clips it stays unchanged."""
+    """Make a viewed scene play clips in a loop; without clips it keeps the motion that it has."""
     clips = choose_clips(viewed, index)
-    if not clips:
-        return
-    player = viewed.player or AnimationPlayer(viewed.scene)
-    player.play(clips)
-    viewed.player = player
-    viewed.period = player.duration or viewed.period
-    viewed.plays = True
-    viewed.update = player.seek
-    viewed.swept = _swept(viewed, player)
-    viewed.bounds = sphere_of_points(viewed.swept)
-    player.seek(0.0)
+    if clips:
+        player = viewed.player or AnimationPlayer(viewed.scene)
+        player.play(clips)
+        viewed.player = player
+        viewed.period = player.duration or viewed.period
+        viewed.plays = True
+        viewed.update = player.seek
+    if viewed.update is not None:
+        viewed.swept = _swept(viewed, viewed.update)
+        viewed.bounds = sphere_of_points(viewed.swept)
+        viewed.update(0.0)
 
 
-def _swept(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
+def _swept(viewed: ViewedScene, move: Callable[[float], None]) -> np.ndarray:
     """Return points that bound the scene at all times as tightly as its vertices do, (N, 3).
 
     At the times between those that are looked at, it may reach a little farther.
@@ -78,7 +79,7 @@ def _swept(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
     found: list[np.ndarray] = []
     looks = _looks(viewed.period, sum(map(len, world_points(viewed.scene))))
     for number in range(looks):
-        player.seek(viewed.period * number / looks)
+        move(viewed.period * number / looks)
         points = np.concatenate([*world_points(viewed.scene), np.zeros((0, 3))])
         found.append(_outermost(points) if len(points) > MANY else points)
     swept = _outermost(np.concatenate(found))

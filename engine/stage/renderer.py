@@ -8,7 +8,7 @@ is kept until the thing changes.
 from __future__ import annotations
 
 import threading
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,24 +18,28 @@ from ..base.validation import flag
 from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
-from ..model.scene.staged_scene import StagedScene
+from ..model.scene.staged_scene import AnyScene, StagedScene
 from ..rendering import renderer as rendering
 from ..rendering.camera_choice import find_camera
 from ..rendering.frame import Frame
 from ..rendering.framing import frame_scene
 from ..rendering.options import (
     DEFAULTS,
+    OUTPUT_MODES,
     OptionKeywords,
     RenderOptions,
     checked_options,
+    drawn_mode,
     shows_options,
 )
 from .appearance import BARE, DARK
 from .kept_stages import KeptStages, Stage
 from .look import Look, LookChoice, check_look
 from .near_origin import pose_from_file
+from .output_pictures import COVERAGE, paint
 from .overlays.numbers import MarkKeywords, Marks, take_marks
 from .painting import check_material
+from .scene_bounds import bounding_sphere
 from .scenes_of_things import is_lit
 from .viewed_thing import comes_from_file, is_file
 from .views.camera_view import AnyView, CameraView
@@ -145,7 +149,6 @@ class Renderer(rendering.Renderer):
         """Change the size of future frames."""
         with self._turn.taken(staging=True):
             super().resize(size)
-            self._of_thread = threading.local()
 
     def close(self) -> None:
         """Free the renderer's memory; frames stay valid. Drawing afterwards raises an error."""
@@ -179,12 +182,12 @@ class Renderer(rendering.Renderer):
         """
         marks, named = _take_marks(keywords)
         if not marks.shows_any and self._is_drawn_as_it_is(scene):
-            super().prepare(scene, options=options, **named)
+            super().prepare(scene, options=_beneath(checked_options(options, named)))
             return
         with self._turn.taken(staging=True):
             chosen, given = _chosen(options, named)
             stage = self._stage_of(scene, given, marks)
-            super().prepare(stage.view_renderer.staging.scene, options=chosen)
+            super().prepare(stage.view_renderer.staging.scene, options=_beneath(chosen))
 
     @shows_options
     def render(
@@ -261,9 +264,11 @@ class Renderer(rendering.Renderer):
         """
         marks, named = _take_marks(keywords)
         if not marks.shows_any and self._is_drawn_as_it_is(scene):
-            return super().render(
-                scene, camera, out=out, culling_camera=culling_camera, options=options, **named
-            )
+            passed: Any = {"out": out, "culling_camera": culling_camera}
+            mode = named.get("mode") if options is None else getattr(options, "mode", None)
+            if isinstance(mode, str) and mode in OUTPUT_MODES:
+                return self._draw_output(scene, camera, checked_options(options, named), passed)
+            return super().render(scene, camera, options=options, **passed, **named)
         with self._turn.taken(staging=True), np.errstate(all="ignore"):
             chosen, given = _chosen(options, named)
             stage = self._stage_of(scene, given, marks)
@@ -274,6 +279,16 @@ class Renderer(rendering.Renderer):
             return stage.view_renderer.draw(
                 view, outputs=chosen.outputs, out=out, culling_camera=culling_camera
             )
+
+    def _draw_output(
+        self, scene: AnyScene, camera: CameraChoice, options: RenderOptions, passed: Any
+    ) -> Frame:
+        """Draw a frame of a scene as it is, and paint an output over it."""
+        frame = super().render(scene, camera, options=_beneath(options), **passed)
+        if "color" in frame.outputs:
+            whole = scene.scene if isinstance(scene, StagedScene) else scene
+            paint(frame, options.mode, bounding_sphere(whole))
+        return frame
 
     def _is_drawn_as_it_is(self, thing: Any) -> bool:
         """Return whether nothing is added to a thing, nor changed in it."""
@@ -312,6 +327,14 @@ class Renderer(rendering.Renderer):
             return stage.first
         view_renderer.choose_theme(stage.first)
         return CameraView(*found, stage.first.up, self.size)
+
+
+def _beneath(options: RenderOptions) -> RenderOptions:
+    """Return the options that draw what an output is painted over, and the output."""
+    if options.mode not in OUTPUT_MODES:
+        return options
+    outputs = dict.fromkeys((*options.outputs, options.mode, COVERAGE))
+    return replace(options, mode=drawn_mode(options.mode), outputs=tuple(outputs))
 
 
 def _take_marks(keywords: DrawingKeywords) -> tuple[Marks, Any]:

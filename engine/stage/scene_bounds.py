@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from .._native.scene_graph import SHOWN
 from ..base import linalg
+from ..base.box_corners import box_corners
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
@@ -167,6 +168,5 @@ def _outline(node: Node) -> np.ndarray | None:
         box = shape.bounds_in_node()
         if box is None:  # there are no instances
             return None
-        corners = [[box[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
-        return np.array(corners, dtype=np.float64)
+        return box_corners(np.array(box, dtype=np.float64))
     return None

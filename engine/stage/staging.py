@@ -14,6 +14,7 @@ import numpy as np
 
 from ..base import linalg
 from ..model.geometry.mesh import Mesh
+from ..model.scene.ambient_lights import AmbientLight
 from ..model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
@@ -27,7 +28,7 @@ from .lighting import (
     OWN_LIGHTS,
     Lighting,
     OnlyLight,
-    light_around,
+    light_in,
     placed_light,
     switch_shadows,
 )
@@ -158,6 +159,7 @@ class Staging:
         self.box = BoxGrid(self.viewed, self.scene)
         self._grid: Node | None = None
         self._surround()
+        self._ambient: AmbientLight | None = None  # of the look, where its lights shine
         self.lighting = self._light()
         self._cast_shadows()
         if lights in self.lighting.names:
@@ -217,8 +219,9 @@ class Staging:
             return OnlyLight(self.scene, light)
         lights = None if self._is_lit_scene else look.lights
         first = lights or (NO_LIGHTS if self._adds_nothing() else "headlight")
-        intensity *= look.light_intensity * light_around(look, self.scene)[1]
-        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity, first)
+        lighting, ambient = light_in(look, self.scene, UP_DIRECTIONS[self.up], first, intensity)
+        self._ambient = None if lighting.names[0] == OWN_LIGHTS else ambient
+        return lighting
 
     def _adds_nothing(self) -> bool:
         """Return whether a scene without lights is lit by the renderer itself."""
@@ -231,9 +234,8 @@ class Staging:
         look = self.settings.look
         if not self.viewed.themed or (look.lights is None and not look.ground):
             return None
-        lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
-        ambient = light_around(look, self.scene)[0] if lights else None
-        return Studio(self.scene, UP_DIRECTIONS[self.up], ambient, self.viewed.places)
+        up, reflects = UP_DIRECTIONS[self.up], look.ground == "mirror"
+        return Studio(self.scene, up, self._ambient, self.viewed.places, reflects)
 
     def _make_edges(self) -> FeatureLines | None:
         """Return the feature edges of the model; None if the look draws none."""
@@ -279,9 +281,10 @@ class Staging:
         if studio is not None and self._has_ground:
             if is_plain and not self._transparent:
                 light = self.lighting.main_direction()
-                studio.lay_shadow(self.viewed.bounds, view, light, appearance.cull)
+                mirrors = appearance.mode == "lit" and appearance.mirror_depth > 0
+                studio.lay_ground(self.viewed.bounds, view, light, appearance.cull, mirrors)
             else:
-                studio.show_shadow(False)
+                studio.hide_ground()
         self.box.follow(view.position(), self.settings.axes_grid and not split)
 
     def choose_theme(self, view: AnyView, draw_alone: Callable[[AnyView], np.ndarray]) -> None:
@@ -295,7 +298,7 @@ class Staging:
         if not self._chooses_theme:
             return
         if self._studio is not None:
-            self._studio.show_shadow(False)
+            self._studio.hide_ground()
         if self._edges is not None:
             self._edges.show(False)
         self.alone = alone = None if self.settings.keeps_theme else draw_alone(view)
@@ -305,7 +308,7 @@ class Staging:
     @property
     def _has_ground(self) -> bool:
         """Whether the model casts a shadow on the ground."""
-        return self._studio is not None and self.settings.look.ground
+        return self._studio is not None and self.settings.look.ground is not False
 
     @property
     def theme(self) -> Theme:

@@ -25,7 +25,8 @@ from ..model.scene.ambient_lights import AmbientLight
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
-from .ground_shadow import REACH, SIDE, GroundShadow, slant_along, usual_slant
+from .ground.ground_shadow import REACH, SIDE, GroundShadow, slant_along, usual_slant
+from .ground.mirror_floor import MirrorFloor
 from .overlays.theme import DARK, LIGHT, Theme
 from .views.camera_view import AnyView
 from .views.viewpoint import Sphere
@@ -52,6 +53,8 @@ class Studio:
         Replaces the ambient light of the scene, unless it has an environment; None leaves it.
     places : (N, 3) ndarray of float64, optional
         Points that bound the moving scene, in world space; by default it is static.
+    reflects : bool
+        Whether a floor reflects the model.
     """
 
     def __init__(
@@ -60,6 +63,7 @@ class Studio:
         up: ArrayLike,
         ambient: AmbientLight | None,
         places: np.ndarray | None = None,
+        reflects: bool = False,
     ) -> None:
         self._staged = staged
         self._axes = home_axes(up)
@@ -69,6 +73,7 @@ class Studio:
             pose = np.eye(4)
             pose[:3, :3] = np.stack(tuple(self._axes), axis=1)
             staged.beside.add(ambient, pose=pose)
+        self._floor = MirrorFloor(staged) if reflects else None
         self._ground: Node | None = None
         self._square = _square()
         self._shadow = GroundShadow(staged, self._square, self._axes)
@@ -84,10 +89,15 @@ class Studio:
         """Whether the shadow is drawn."""
         return self._ground is not None and self._ground.visible
 
-    def lay_shadow(
-        self, bounds: Sphere, view: AnyView, light: np.ndarray | None, cull: FrameCull
+    def lay_ground(
+        self,
+        bounds: Sphere,
+        view: AnyView,
+        light: np.ndarray | None,
+        cull: FrameCull,
+        mirrors: bool,
     ) -> None:
-        """Draw the scene's current shadow on the ground.
+        """Draw the scene's current shadow on the ground, and the floor that reflects, if any.
 
         Parameters
         ----------
@@ -98,9 +108,11 @@ class Studio:
             The direction in which the key light travels; None: from behind the viewer's shoulder.
         cull : str
             As in `GroundShadow.alphas`.
+        mirrors : bool
+            Whether the picture shows what mirrors reflect.
         """
         eye = view.eye()
-        self.show_shadow(False)
+        self.hide_ground()
         lowest = min(self._usual, self._lowest())
         up, center = self._axes[1], np.array(bounds.center)
         middle = center + up * (lowest - float(linalg.dot(center, up)))
@@ -111,11 +123,13 @@ class Studio:
         alphas = self._shadow.alphas(lowest, bounds, slant, cull)
         ground = self._darkened(alphas)
         farther = 1.0 + BEHIND * eye[3]
-        pose = np.eye(4)
-        pose[:3, :3] = np.stack(tuple(self._axes), axis=1) * (farther * bounds.radius)
+        turn, pose = np.stack(tuple(self._axes), axis=1), np.eye(4)
+        pose[:3, :3] = turn * (farther * bounds.radius)
         pose[:3, 3] = middle - towards * (BEHIND if eye[3] else BEHIND * bounds.radius)
         ground.pose = pose
-        self.show_shadow(True)
+        ground.visible = True
+        if self._floor is not None and mirrors:
+            self._floor.lay(middle, turn, bounds.radius)
 
     def _lowest(self) -> float:
         """Return the scene's current lowest extent."""
@@ -134,10 +148,12 @@ class Studio:
             material.texture = Texture(pixels, filter="bilinear", wrap="clamp")
         return self._ground
 
-    def show_shadow(self, shown: bool) -> None:
-        """Show or hide the shadow, if there is one."""
+    def hide_ground(self) -> None:
+        """Hide the shadow and the floor, if there are any."""
         if self._ground is not None:
-            self._ground.visible = shown
+            self._ground.visible = False
+        if self._floor is not None:
+            self._floor.hide()
 
 
 def _square() -> Mesh:

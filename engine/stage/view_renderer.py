@@ -18,7 +18,7 @@ from ..model.spatial.rays import RayHit
 from ..rendering.canvas import Canvas
 from ..rendering.frame import Frame, Output
 from ..rendering.framing import lens_for
-from ..rendering.options import size_in_picture
+from ..rendering.options import OUTPUT_MODES, size_in_picture
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import (
     SupportFunction,
@@ -30,7 +30,6 @@ from .blank import BlankWatch, Reason, Sight
 from .lighting import Lighting, OnlyLight
 from .output_pictures import (
     COVERAGE,
-    OUTPUT_MODES,
     SPLIT_OUTPUTS,
     paint,
     split,

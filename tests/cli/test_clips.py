@@ -130,7 +130,7 @@ def test_run_plays_into_a_file(moving):
         (["--animation-index", "-2"], 2, "'-2' is not a whole number of at least -1"),
         (["--animation-time", "x"], 2, "'x' is not a number"),
         (["--camera-index", "2"], 2, "flag.gltf has no camera 2 (the last is 1)"),
-        (["--variant", "red"], 1, "no variant 'red'"),
+        (["--variant", "red"], 1, "no variant 'red': the file has none"),
         (["--turntable", "2", "--animation", "3"], 2, "need the same N"),
     ),
 )

@@ -96,7 +96,10 @@ def test_each_of_several_files_has_its_own(own, tmp_path):
         ([{"options": {}, "match": "x"}], "[0].match: there is no such key"),
         ([{"options": {}, "files": 3}], "[0].files: a pattern or a list of patterns is needed"),
         ([{"options": {"look": "odd"}}], "[0].options.look: 'odd' is not one of studio, plain"),
-        ([{"options": {"size": [1]}}], "[0].options.size: '1' is not like 1280x720"),
+        (
+            [{"options": {"size": [1]}}],
+            "[0].options.size: '1' is not WIDTHxHEIGHT, such as 1280x720",
+        ),
         ([{"options": {"size": True}}], "[0].options.size: true is no value of it"),
         ([{"options": {"grid": 1}}], "[0].options.grid: 1 is no value of it"),
         ([{"options": {"up": None}}], "a text, a number or a list of them is needed"),

@@ -39,6 +39,8 @@ def test_quiet_prints_errors_only(model, capsys, tmp_path):
         (["run", "a.obj", "--camera-view-angle=60"], "did you mean --camera-yfov?"),
         (["run", "a.obj", "--fov=60"], "did you mean --camera-yfov?"),
         (["render", "a.obj", "--background", "white"], "a colour goes with --background-color"),
+        (["render", "a.obj", "--size", "-5x5"], "'-5x5': each side must be from 1 to 16384 pixels"),
+        (["render", "a.obj", "--size", "5"], "'5' is not WIDTHxHEIGHT, such as 1280x720"),
         (["render", "a b.obj", "out.PNG"], "-o FILE: engine3d render 'a b.obj' -o out.PNG"),
         (["render", "a.obj", "b.obj"], "say where to write with -o FILE\n"),
         (["convert", "a.obj"], "say where to write, such as: engine3d convert a.obj a.ply"),

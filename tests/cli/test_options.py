@@ -15,7 +15,8 @@ from engine3d.apps.cli.parser import make_parser
 from engine3d.apps.cli.usage import UsageError
 from engine3d.apps.scenes import DEMO_NAMES, SCENES, function_of
 from engine3d.extras.worlds.city import LEAST, MOST
-from engine3d.stage.appearance import CHOICES, MODES
+from engine3d.rendering.options import MODES
+from engine3d.stage.appearance import CHOICES
 
 
 def parse(*arguments):

@@ -9,6 +9,7 @@ import warnings
 
 import numpy as np
 import pytest
+from public.every_callable import MADE_ELSEWHERE
 from public.hostile_calls import SIZE, camera, draw, mesh, scene
 from public.public_names import public_things
 
@@ -48,6 +49,7 @@ MISTAKES = [
     (assign(node, "position", (1, 2, 3)), "did you mean translation"),
     (assign(node, "lookAt", (1, 2, 3)), "look_at"),
     (assign(node, "anything", 1), "no attribute 'anything'"),
+    (assign(lambda: e3d.Canvas((4, 4)), "pixel", 1), "did you mean pixels"),
     (lambda: node().visble, "no attribute 'visble'"),
     (lambda: scene().lights, "scene.nodes"),
     (assign(e3d.Scene, "bg_color", (1, 1, 1)), "did you mean background"),
@@ -68,6 +70,8 @@ MISTAKES = [
     (lambda: e3d.render(mesh(), tonemapping="aces"), "did you mean tone_mapping"),
     (lambda: e3d.render(mesh(), siz=SIZE), "did you mean size"),
     (lambda: e3d.RenderOptions(wirefram="only"), "did you mean wireframe"),
+    (lambda: e3d.RenderOptions(tone="aces"), "did you mean tone_mapping"),
+    (lambda: e3d.Look(grond=False), "did you mean ground"),
     (lambda: e3d.box(extents=(1, 1, 1)), "did you mean size"),
     (lambda: e3d.orbit((0, 0, 0), radius=3.0, azimuth=0.0), "did you mean distance"),
     (lambda: e3d.load_mesh("a.obj", formt="obj"), "did you mean format"),
@@ -208,3 +212,37 @@ def test_every_output_is_named_where_frames_are_asked_for():
 
     documented = e3d.RenderOptions.__doc__
     assert not [name for name in OUTPUTS if f"``{name}``" not in documented]
+
+
+def swapped(word):
+    """A word with two letters swapped near its middle."""
+    middle = len(word) // 2
+    return word[: middle - 1] + word[middle] + word[middle - 1] + word[middle + 1 :]
+
+
+def keywords(thing):
+    """What a callable takes as keywords alone or, if it passes none on, also by place."""
+    parameters = inspect.signature(thing).parameters.values()
+    passes_on = any(each.kind is each.VAR_KEYWORD for each in parameters)
+    kinds = {inspect.Parameter.KEYWORD_ONLY} | (
+        set() if passes_on else {inspect.Parameter.POSITIONAL_OR_KEYWORD}
+    )
+    return [each.name for each in parameters if each.kind in kinds and len(each.name) > 3]
+
+
+CALLED = {
+    name: thing
+    for name, thing in public_things().items()
+    if callable(thing) and name not in MADE_ELSEWHERE
+    if not (inspect.isclass(thing) and issubclass(thing, (Exception, tuple)))
+}
+
+
+@pytest.mark.parametrize("name", sorted(CALLED))
+def test_a_misspelt_keyword_is_answered_by_the_right_one(name):
+    required = ["scene"] if name == "render" else []
+    for word in keywords(CALLED[name]):
+        wrong = swapped(word)
+        if wrong != word:
+            with pytest.raises(TypeError, match=f"{wrong}.*did you mean {word}"):
+                CALLED[name](*required, **{wrong: None})

@@ -159,10 +159,10 @@ def test_what_goes_by_the_picture_alone_always_fits():
     """Bloom and ambient occlusion of the largest picture, with the most threads and samples."""
     memory = _frame_memory.FrameMemory(1, 16, 256)
     glowing = e3d.RenderOptions(bloom=1.0, ambient_occlusion=True)
-    memory._size = size = 16384, 16384
+    size = 16384, 16384
     plan = plan_of(glowing, size, 256)
     assert {use.what for use in plan.uses} == {"bloom", "ambient occlusion"}
-    memory._check(plan.uses + memory._uses_of(*size))
+    assert memory.check((), size, plan.uses) == plan.uses + memory._uses_of(*size)
 
 
 def test_the_limit_is_what_the_program_says(monkeypatch):
@@ -176,3 +176,25 @@ def test_the_limit_is_what_the_program_says(monkeypatch):
             else:
                 with pytest.raises(e3d.InvalidArgumentError, match="MAX_FRAME_BYTES"):
                     renderer.render(scene)
+
+
+def test_what_mirrors_show_counts(monkeypatch):
+    """Each of some mirrors draws shadow maps of its own."""
+    light = e3d.PointLight(shadow="map", shadow_map_size=256)
+    maps, counted = 6 * 4 * 256**2, []
+    for mirrors in range(4):
+        scene = scene_of([light])
+        pane = e3d.plane()
+        pane.materials = [e3d.Material(mirror=1.0)]
+        for number in range(mirrors):
+            scene.add(pane, translation=(0, -1 - 0.1 * number, 0))
+        camera = e3d.PerspectiveCamera(1.0), e3d.look_at((0, 2, 3), (0, 0, 0))
+
+        def draw(scene=scene, camera=camera):
+            render(scene, camera, size=(64, 64), mirror_depth=1)
+
+        counted.append(least_limit(draw, monkeypatch)[0])
+        allow(monkeypatch, counted[-1])
+        draw()
+    steps = np.diff(counted)
+    assert (steps >= maps).all() and (steps < 1.5 * maps).all()

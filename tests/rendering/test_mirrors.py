@@ -214,6 +214,13 @@ def test_what_is_left_out_is_said():
         draw(mirrored_by(LIT), size=(16, 16))
 
 
+def test_a_mirror_of_too_many_samples_is_left_out_and_said(monkeypatch):
+    monkeypatch.setattr("engine3d.rendering.passes.mirrors.MAX_SIZE", 60)
+    without = draw(mirrored_by(LIT, mirror=0.0), size=(64, 64)).color
+    with pytest.warns(e3d.errors.Engine3DWarning, match="64x64 samples .*Material.mirror: .* 60 a"):
+        assert np.array_equal(draw(mirrored_by(LIT), size=(64, 64)).color, without)
+
+
 def test_an_animated_mirror_follows():
     scene = mirrored_by(LIT, SIDEWAYS)
     pane = scene.nodes[-1]

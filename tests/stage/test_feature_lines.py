@@ -1,5 +1,7 @@
 """The lines that a look draws along the edges of faceted models."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -202,3 +204,11 @@ def test_wild_vertices_have_no_lines():
     with pytest.warns(e3d.Engine3DWarning, match="not finite"):
         wild = e3d.Mesh(positions, box.faces)
     assert lines_on(wild).any()
+
+
+def test_a_large_machine_part_has_lines():
+    """Its sharp edges lie between patches of faces that are stored far from each other."""
+    path = Path(__file__).parents[3] / "shared" / "models" / "fandisk.obj"
+    if not path.exists():
+        pytest.skip("needs the shared models")
+    assert 400 < lines_on(path).sum() < 2500

@@ -12,6 +12,7 @@ import pytest
 import engine3d as e3d
 from engine3d.apps.cli import main
 from engine3d.io.scenes.upright_loading import _upright_pose
+from engine3d.rendering.options import MODES
 from engine3d.stage.near_origin import pose_in_file
 
 DATA = Path(__file__).parents[2] / "data" / "models"
@@ -89,6 +90,34 @@ def test_files_look_as_with_the_command(path, tmp_path):
     if not path.exists():
         pytest.skip("needs the shared models")
     same(by_command(path, tmp_path), e3d.render(path, size=SIZE).color)
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_modes_are_those_of_the_command(mode, tmp_path):
+    """For a model, which wears a look, and for a scene with light of its own."""
+    path, lit = DATA / "teapot.obj", save("json", tmp_path)
+    same(by_command(path, tmp_path, "--mode", mode), e3d.render(path, size=SIZE, mode=mode).color)
+    picture = by_command(lit, tmp_path, "--mode", mode)
+    same(picture, e3d.render(lit, size=SIZE, mode=mode).color)
+    scene = e3d.load_scene(lit)
+    options = e3d.RenderOptions(mode=mode)
+    with e3d.Renderer(SIZE) as renderer:
+        renderer.prepare(scene, options=options)
+        framed = e3d.frame_scene(scene, aspect=SIZE[0] / SIZE[1])
+        frame = renderer.render(scene, framed, options=options)
+        shown, unlit = frame.color.copy(), renderer.render(scene, framed, mode="unlit").color
+        assert (mode == "unlit") == np.array_equal(shown, unlit)
+        same(shown, renderer.render(scene, framed, options=options, out=frame).color)
+
+
+def test_changes_of_a_look_are_those_of_the_command(tmp_path):
+    path = DATA / "teapot.obj"
+    options = ("--ground", "mirror", "--feature-edges")
+    look = e3d.Look.studio(ground="mirror", feature_edges=True)
+    same(by_command(path, tmp_path, *options), e3d.render(path, size=SIZE, look=look).color)
+    plain = by_command(path, tmp_path, "--ground", "none", "--no-feature-edges")
+    look = e3d.Look.studio(ground=False, feature_edges=False)
+    same(plain, e3d.render(path, size=SIZE, look=look).color)
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
@@ -182,8 +211,9 @@ def test_a_kept_renderer_draws_as_a_fresh_one(thing):
         camera = e3d.frame_scene(thing, aspect=SIZE[0] / SIZE[1], direction=(1, -1, -1))
         seen = kept.render(thing, camera).color.copy()
         same(e3d.render(thing, camera, size=SIZE).color, seen)
-        kept.resize((80, 80))
-        same(e3d.render(thing, size=(80, 80)).color, kept.render(thing).color)
+        for size in ((80, 80), (300, 60), (40, 200), SIZE):
+            kept.resize(size)
+            same(e3d.render(thing, size=size).color, kept.render(thing).color)
 
 
 def test_changes_of_things_show(tmp_path):
@@ -209,7 +239,8 @@ def test_a_kept_renderer_stages_a_thing_once(monkeypatch):
     monkeypatch.setattr(kept_stages, "viewed_of", lambda thing: calls.append(1) or opened(thing))
     mesh = e3d.torus()
     with e3d.Renderer(SIZE) as renderer:
-        for _ in range(3):
+        for size in (SIZE, SIZE, (80, 80), SIZE):
+            renderer.resize(size)
             renderer.render(mesh)
     assert len(calls) == 1
 

@@ -5,6 +5,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.model.motion.clips import AnimationClip, Channel
+from engine3d.stage.open_model import open_model
 from engine3d.stage.played_clips import _outermost, play_clips
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
@@ -31,6 +32,30 @@ def bent():
     offsets[strip.positions[:, 1] > 0] = (2.5, -1.0, 0.0)
     strip.morph_targets = [e3d.motion.MorphTarget(offsets)]
     return strip
+
+
+def moved_by_an_animator(tmp_path):
+    """A ball on the end of a turning arm, which an animator of a scene file moves."""
+    scene = e3d.Scene()
+    arm = scene.add()
+    scene.add(e3d.uv_sphere(0.5), parent=arm, translation=(4, 0, 0))
+    scene.animator = e3d.Animator(scene)
+    scene.animator.spin(arm, period=3.0)
+    scene.save(tmp_path / "arm.e3d.json")
+    return open_model(tmp_path / "arm.e3d.json", animation=play_clips)
+
+
+def test_the_motion_of_an_animator_stays_in_the_picture(tmp_path):
+    viewed, sides = moved_by_an_animator(tmp_path), []
+    with ViewRenderer(viewed, Settings({}, look="studio"), SIZE) as renderer:
+        view = FirstView().place(renderer, turns=False)
+        for time in np.linspace(0.0, viewed.period, 41):
+            frame = renderer.draw(view, time, outputs=("color", "face_id"))
+            rows, columns = np.nonzero(frame.face_id >= 0)
+            sides.append((columns.min(), rows.min(), columns.max() + 1, rows.max() + 1))
+    sides = np.array(sides)
+    assert (sides[:, :2] > 0).all() and (sides[:, 2:] < SIZE).all()
+    assert (np.ptp(sides[:, [0, 2]]) / SIZE[0]) > 0.8
 
 
 MOTIONS = {

@@ -6,7 +6,7 @@ import pytest
 import engine3d as e3d
 from engine3d.model.scene import scene_changes
 from engine3d.model.scene.scene_changes import SceneChanges
-from engine3d.stage import ground_shadow
+from engine3d.stage.ground import ground_shadow
 from engine3d.stage.staging import Staging
 
 SIZE = (64, 48)

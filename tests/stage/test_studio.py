@@ -10,7 +10,7 @@ from engine3d.model.motion.clips import AnimationClip, Channel
 from engine3d.model.scene.orbiting import home_axes
 from engine3d.model.scene.staged_scene import StagedScene
 from engine3d.model.scene.surroundings import SCENE_VALUES
-from engine3d.stage.ground_shadow import SIDE, GroundShadow, slant_along, usual_slant
+from engine3d.stage.ground.ground_shadow import SIDE, GroundShadow, slant_along, usual_slant
 from engine3d.stage.overlays.theme import DARK, LIGHT
 from engine3d.stage.played_clips import play_clips
 from engine3d.stage.stage_settings import Settings
@@ -159,7 +159,7 @@ def ground_of(scene, size, view_of, **settings):
             view_of(view)
             renderer.fill(view)
             frame = renderer.draw(view, outputs=("color", "object_id"))
-            renderer.staging._studio.show_shadow(False)
+            renderer.staging._studio.hide_ground()
             look = (renderer._camera(view), view.pose())
             bare = renderer.renderer.render(
                 renderer.staging.scene, look, **renderer._appearance()
@@ -192,7 +192,7 @@ def test_what_moves_lower_than_before_is_not_hidden_by_the_ground():
         renderer.draw(view)
         next(iter(scene.nodes)).translation = (0.0, -0.4, 0.0)
         frame = renderer.draw(view, outputs=("color", "object_id"))
-        renderer.staging._studio.show_shadow(False)
+        renderer.staging._studio.hide_ground()
         look = (renderer._camera(view), view.pose())
         bare = renderer.renderer.render(
             renderer.staging.scene, look, **renderer._appearance()
@@ -377,3 +377,45 @@ def test_the_ground_makes_shadow_maps_no_coarser():
         renderer.draw(renderer.view())
         assert renderer.staging.scene.data.shadow_bounds().tolist() == scene.bounds.tolist()
         assert (renderer.staging.scene.bounds != scene.bounds).any()
+
+
+def test_a_polished_floor_reflects_the_model():
+    """Below its feet alone: the model keeps its bytes, and so does the background."""
+    scene = e3d.Scene()
+    scene.add(e3d.box((1, 2, 1)), translation=(0, 3, 0))
+    view = e3d.PerspectiveCamera(0.9), e3d.look_at((3, 4, 6), (0, 2, 0))
+    names = ("color", "object_id", "depth")
+    shadow, mirror = (
+        e3d.render(scene, view, size=SIZE, outputs=names, look=e3d.Look.studio(ground=ground))
+        for ground in (True, "mirror")
+    )
+    assert np.array_equal(shadow.depth, mirror.depth)
+    changed = np.abs(shadow.color.astype(int) - mirror.color).max(axis=2)
+    feet = np.nonzero((shadow.object_id >= 0).any(axis=1))[0].max()
+    assert (changed[feet + 1 :] > 10).sum() > 100 and changed[: feet - 20].max() <= 1
+    for options in ({"mode": "unlit"}, {"mode": "normal"}, {"mirror_depth": 0}):
+        pictures = [
+            e3d.render(scene, view, size=SIZE, look=e3d.Look.studio(ground=one), **options).color
+            for one in (True, "mirror")
+        ]
+        assert np.array_equal(*pictures), options
+
+
+def test_a_mirror_mirrors_in_the_look():
+    pane = e3d.plane((4, 4))
+    pane.materials = [e3d.Material(mirror=1.0)]
+    scene = e3d.Scene()
+    red = e3d.box()
+    red.materials = [e3d.Material(color="red")]
+    scene.add(red, translation=(0, 1, 0))
+    scene.add(pane)
+    view = e3d.PerspectiveCamera(0.7), e3d.look_at((0, 2, 4), (0, 0, 0))
+    color = e3d.render(scene, view, size=SIZE, look=e3d.Look.studio(ground=False)).color
+    red, green = (color[55:, 40:80, k].astype(int) for k in (0, 1))
+    assert (red > 2 * green).sum() > 200
+
+
+def test_grounds_are_named():
+    assert e3d.Look.studio(ground="mirror").replace(ground=1).ground is True
+    with pytest.raises(e3d.InvalidArgumentError, match="ground must be one of .*'mirror'"):
+        e3d.Look.studio(ground="wet")

@@ -7,7 +7,8 @@ from viewer.scripted_window import ScriptedWindow
 import engine3d as e3d
 from engine3d import events
 from engine3d.apps.viewer.viewer import Viewer
-from engine3d.stage.output_pictures import OUTPUT_MODES, SPLIT, picture_of, whole_pixel
+from engine3d.rendering.options import OUTPUT_MODES
+from engine3d.stage.output_pictures import SPLIT, picture_of, whole_pixel
 from engine3d.stage.overlays.debug_lines import BOX, FRUSTUM, LEVELS, frustum_lines, tree_lines
 from engine3d.stage.overlays.selection_outline import OUTLINE
 from engine3d.stage.stage_settings import Settings

@@ -12,7 +12,7 @@ import engine3d as e3d
 from engine3d import events
 from engine3d.apps.viewer.keymap import BINDINGS
 from engine3d.apps.viewer.viewer import Viewer
-from engine3d.stage.appearance import MODES
+from engine3d.rendering.options import MODES
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene

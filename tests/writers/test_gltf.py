@@ -218,6 +218,16 @@ def test_mirrors_are_lost_with_a_warning(tmp_path):
     assert node.object.materials[0].mirror == 0.5
 
 
+def test_what_states_no_material_loses_none(tmp_path):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        e3d.save_mesh(e3d.box(), tmp_path / "box.glb")
+        e3d.save_mesh(e3d.torus().transformed(np.eye(4)), tmp_path / "torus.glb")
+    assert {str(one.message).partition(": ")[2] for one in told} == {
+        f"mesh '{name}': gltf files hold no polygons" for name in ("box", "torus")
+    }
+
+
 @pytest.mark.parametrize("end", ENDS)
 def test_a_mesh_becomes_a_file(tmp_path, end):
     mesh = e3d.box()

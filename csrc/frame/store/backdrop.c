@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "data/srgb_tables.h"
+#include "data/code_light.h"
 #include "kernels/kernels.h"
 #include "kernels/types/samples.h"
 #include "frame/pass/plan.h"
@@ -55,10 +55,8 @@ static void decode_codes(const e3d_store *store, const uint32_t *rgba, int count
     float *const planes[3] = {out->red, out->green, out->blue};
     int srgb = e3d_plans(store->pass, E3D_PLAN_ENCODES_SRGB);
     for (int k = 0; k < 3; k++)
-        for (int i = 0; i < count; i++) {
-            int code = rgba[i] >> (8 * k) & 255;
-            planes[k][i] = srgb ? (float)SRGB_TO_LINEAR16[code] * E3D_UNORM16 : (float)code * E3D_UNORM8;
-        }
+        for (int i = 0; i < count; i++)
+            planes[k][i] = e3d_light_of(rgba[i] >> (8 * k) & 255, srgb);
 }
 
 /* ---- pixels ---- */

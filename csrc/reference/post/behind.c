@@ -5,9 +5,10 @@
  */
 #include "base/fpenv.h"
 #include "data/behind_levels.h"
-#include "data/srgb_tables.h"
 #include "data/tone_tables.h"
 #include "reference/arithmetic.h"
+#include "reference/decoding.h"
+#include "reference/post/halving.h"
 #include "reference/reference.h"
 #include "reference/stages.h"
 #include "reference/surface.h"
@@ -31,29 +32,21 @@ static void find_texel(const e3d_behind *picture, size_t pixel, float texel[4])
         texel[c] = ref_clamp(picture->radiance[3 * pixel + (size_t)c], 0.0f, E3D_MOST_LIGHT);
     texel[3] = picture->is_transparent ? code[3] != 0 : shows_as(picture, texel, code);
     for (int c = 0; c < 3 && texel[3] == 0.0f; c++) {
-        float decoded = picture->srgb ? (float)SRGB_TO_LINEAR16[code[c]] * E3D_UNORM16 : (float)code[c] * E3D_UNORM8;
+        float decoded = ref_decode(code[c], picture->srgb);
         texel[c] = picture->is_transparent ? 0.0f : decoded;
     }
 }
-
-static size_t within(int32_t i, int32_t side)
-{
-    if (i < 0)
-        return 0;
-    return (size_t)(i < side ? i : side - 1);
-}
-
-static float filter(float a, float b, float c, float d) { return ((a + d) + (b + c) * 3.0f) * 0.125f; }
 
 /* R162: column x of a level's rows 2y - 1 to 2y + 2, filtered. */
 static float column(const e3d_behind_level *from, const float *texels, int32_t x, int32_t y, int c)
 {
     float four[4];
     for (int32_t k = 0; k < 4; k++) {
-        size_t row = within(2 * y - 1 + k, from->height);
-        four[k] = texels[4 * (row * (size_t)from->width + within(x, from->width)) + (size_t)c];
+        int32_t row = ref_within(2 * y - 1 + k, from->height);
+        size_t at = (size_t)row * (size_t)from->width + (size_t)ref_within(x, from->width);
+        four[k] = texels[4 * at + (size_t)c];
     }
-    return filter(four[0], four[1], four[2], four[3]);
+    return ref_halve(four[0], four[1], four[2], four[3]);
 }
 
 /* R162 */
@@ -64,8 +57,8 @@ static void fill_level(const e3d_behind_level *from, const e3d_behind_level *to,
     for (int32_t y = 0; y < to->height; y++)
         for (int32_t x = 0; x < to->width; x++)
             for (int c = 0; c < 4; c++)
-                *out++ = filter(column(from, texels, 2 * x - 1, y, c), column(from, texels, 2 * x, y, c),
-                                column(from, texels, 2 * x + 1, y, c), column(from, texels, 2 * x + 2, y, c));
+                *out++ = ref_halve(column(from, texels, 2 * x - 1, y, c), column(from, texels, 2 * x, y, c),
+                                   column(from, texels, 2 * x + 1, y, c), column(from, texels, 2 * x + 2, y, c));
 }
 
 void e3d_reference_behind(const e3d_behind *picture, float *levels)

@@ -7,8 +7,9 @@
 
 #include "data/bloom_levels.h"
 #include "base/fpenv.h"
-#include "data/srgb_tables.h"
 #include "reference/arithmetic.h"
+#include "reference/decoding.h"
+#include "reference/post/halving.h"
 #include "reference/reference.h"
 #include "reference/stages.h"
 
@@ -17,32 +18,23 @@ typedef struct bloom_image {
     float (*pixels)[3];
 } bloom_image;
 
-static int32_t within(int32_t i, int32_t side)
-{
-    if (i < 0)
-        return 0;
-    return i < side ? i : side - 1;
-}
-
 static float at(const bloom_image *image, int32_t x, int32_t y, int c)
 {
-    x = within(x, image->width);
-    y = within(y, image->height);
+    x = ref_within(x, image->width);
+    y = ref_within(y, image->height);
     return image->pixels[(size_t)y * (size_t)image->width + (size_t)x][c];
 }
 
-static float filter(float a, float b, float c, float d) { return ((a + d) + (b + c) * 3.0f) * 0.125f; }
-
 static float column(const bloom_image *image, int32_t x, int32_t y, int c)
 {
-    return filter(at(image, x, 2 * y - 1, c), at(image, x, 2 * y, c), at(image, x, 2 * y + 1, c), at(image, x, 2 * y + 2, c));
+    return ref_halve(at(image, x, 2 * y - 1, c), at(image, x, 2 * y, c), at(image, x, 2 * y + 1, c), at(image, x, 2 * y + 2, c));
 }
 
 /* A pixel of the next level, half the size. */
 static float halved(const bloom_image *image, int32_t x, int32_t y, int c)
 {
-    return filter(column(image, 2 * x > 0 ? 2 * x - 1 : 0, y, c), column(image, 2 * x, y, c), column(image, 2 * x + 1, y, c),
-                  column(image, 2 * x + 2, y, c));
+    return ref_halve(column(image, 2 * x > 0 ? 2 * x - 1 : 0, y, c), column(image, 2 * x, y, c), column(image, 2 * x + 1, y, c),
+                     column(image, 2 * x + 2, y, c));
 }
 
 static int32_t neighbour(int32_t i) { return i / 2 + (i % 2 ? 1 : -1); }
@@ -96,7 +88,7 @@ static void add_doubled(const bloom_image *from, bloom_image *out)
 /* R124 */
 static uint8_t glowing(uint8_t code, float glow, int srgb)
 {
-    float shown = srgb ? (float)SRGB_TO_LINEAR16[code] * E3D_UNORM16 : (float)code * E3D_UNORM8;
+    float shown = ref_decode(code, srgb);
     float share = glow / (1.0f + glow);
     return ref_encode(ref_clamp(shown + (1.0f - shown) * share, 0.0f, 1.0f), srgb);
 }

@@ -17,6 +17,7 @@ from .options.appearance_options import WIREFRAMES
 SIGNED_OPTIONS = frozenset(
     {
         "--up",
+        "--size",
         "--light-position",
         "--light-direction",
         "--camera-position",

@@ -26,12 +26,12 @@ _MOST = 999_999_999
 
 def size(text: str) -> tuple[int, int]:
     """Parse ``1280x720`` or ``1280,720``."""
-    match = re.fullmatch(r"\s*(\d+)\s*[xX,]\s*(\d+)\s*", text)
+    match = re.fullmatch(r"\s*(-?\d+)\s*[xX,]\s*(-?\d+)\s*", text)
     if not match:
-        raise argparse.ArgumentTypeError(f"{text!r} is not like 1280x720")
+        raise argparse.ArgumentTypeError(f"{text!r} is not WIDTHxHEIGHT, such as 1280x720")
     width, height = int(match[1]), int(match[2])
     if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
-        raise argparse.ArgumentTypeError(f"{text!r}: each side must be from 1 to {MAX_SIDE}")
+        raise argparse.ArgumentTypeError(f"{text!r}: each side must be from 1 to {MAX_SIDE} pixels")
     return width, height
 
 

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from ...base import linalg
+from ...base.box_corners import CORNER_ENDS
 from ...model.geometry.mesh import Mesh
 from ...model.primitives import box
 from ...model.scene.scene import Scene
@@ -51,8 +52,7 @@ def cycle() -> ViewedScene:
 
 def _corners(**primitives) -> Mesh:
     """Return the eight corners with points or lines between them."""
-    corners = np.array([[(i >> axis) & 1 for axis in range(3)] for i in range(8)])
-    positions = corners.astype(np.float32) - 0.5
+    positions = CORNER_ENDS.astype(np.float32) - 0.5
     return Mesh(positions, colors=_corner_colors(positions), **primitives)
 
 

@@ -17,7 +17,7 @@ from ...stage.appearance import count_points, has_faces, point_size
 from ...stage.blank import Sight
 from ...stage.coloring import show_numbers
 from ...stage.finish import finish_for
-from ...stage.lighting import NO_LIGHTS, Lighting, light_around
+from ...stage.lighting import NO_LIGHTS, light_in
 from ...stage.look import Look
 from ...stage.overlays.numbers import take_marks
 from ...stage.overlays.theme import LIGHT, Theme, theme_named
@@ -92,6 +92,7 @@ class PanelRenderer:
         self._points = count_points(self.scene)
         self.has_faces = has_faces(self.scene)
         self._renderer: Renderer | None = None
+        self._pictures: PictureRenderer | None = None
         self._settings = settings_for(look, material=material)
         self.staged = StagedScene(self.scene)
         self._light()
@@ -105,8 +106,7 @@ class PanelRenderer:
         self._settings.surroundings.put(self.staged, self.up if look.environment else None)
         self.staged.finish_materials(finish_for(look, self.staged, self._viewed.shows_numbers))
         self.staged.fog = None
-        ambient, around = light_around(look, self.staged)
-        self._lighting = Lighting(self.staged, self.up, look.light_intensity * around, first)
+        self._lighting, ambient = light_in(look, self.staged, self.up, first)
         self._lighting.choose(first)
         Studio(self.staged, self.up, ambient)
 
@@ -114,16 +114,21 @@ class PanelRenderer:
         return self
 
     def __exit__(self, *exception: object) -> None:
-        if self._renderer is not None:
-            self._renderer.close()
+        for renderer in (self._renderer, self._pictures):
+            if renderer is not None:
+                renderer.close()
 
     def choose_paper(self, camera: Camera, pose: np.ndarray) -> None:
         """Choose paper that contrasts with a model without faces, as seen by a camera."""
+        named = theme_named(self._look.background)
+        if named is not None:
+            self.paper = named
+            return
         self.staged.background = None
         self._lighting.follow(pose)
         with Renderer(_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
-        self.paper = theme_named(self._look.background) or theme_for(color, self.has_faces)
+        self.paper = theme_for(color, self.has_faces)
 
     def draw(
         self,
@@ -154,19 +159,18 @@ class PanelRenderer:
 
     def picture(self, camera: Camera, pose: np.ndarray, rectangle: Rectangle) -> Frame:
         """Draw a panel as `engine3d.render` draws the model with this camera."""
-        with PictureRenderer(
-            (rectangle.width, rectangle.height),
-            look=self._look,
-            material=self._material,
-            **self._drawing,
-        ) as renderer:
-            return renderer.render(
-                self._viewed,
-                (camera, pose),
-                outputs=OUTPUTS,
-                transparent_outputs=True,
-                **self._marks,
-            )
+        size = rectangle.width, rectangle.height
+        if self._pictures is None:
+            dress: dict[str, Any] = {"look": self._look, "material": self._material}
+            self._pictures = PictureRenderer(size, **dress, **self._drawing)
+        self._pictures.resize(size)
+        return self._pictures.render(
+            self._viewed,
+            (camera, pose),
+            outputs=OUTPUTS,
+            transparent_outputs=True,
+            **self._marks,
+        )
 
     def options(self, rectangle: Rectangle, *, both_sides: bool) -> dict[str, Any]:
         """Return the options that draw the same pixels: ``cull``, ``backend`` and so on."""

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from ...base.calls import checks_types
 from ...base.image_size import check_size
 from ...base.numbers import real, shown
+from ...base.validation import FixedNames
 from ...base.validation import text as checked_text
 from ...choices import PixelFormat, PointerShape
 from ...errors import DisplayError, InvalidArgumentError
@@ -55,7 +56,7 @@ POINTERS: dict[PointerShape, str] = {
 _OPEN: dict[int, Window] = {}
 
 
-class Window:
+class Window(FixedNames):
     """A window to show pictures in.
 
     Iterating over it yields events and, where the window doesn't wait, a `Tick` whenever the next

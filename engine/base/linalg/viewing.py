@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from ...errors import InvalidArgumentError
 from ..angles import field_of_view
+from ..calls import hinted
 from ..numbers import real
 from ..validation import finite, positive
 from . import single
@@ -27,6 +28,7 @@ FloatArray = npt.NDArray[np.float64]
 _PARALLEL = 1e-9
 
 
+@hinted
 def look_at(
     eye: npt.ArrayLike, target: npt.ArrayLike, up: npt.ArrayLike = (0.0, 1.0, 0.0)
 ) -> FloatArray:

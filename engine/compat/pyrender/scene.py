@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.box_corners import box_corners
 from ._bounded import Bounded
 from ._held import Named
 from .camera import Camera
@@ -152,8 +153,7 @@ class Scene(Bounded, Named):
             if not len(node.mesh.primitives):
                 continue
             pose = self.get_pose(node)
-            chosen = np.array(list(itertools.product((0, 1), repeat=3)))
-            points = box[chosen, np.arange(3)]
+            points = box_corners(box)
             corners.append(points @ pose[:3, :3].T + pose[:3, 3])
         if not corners:
             return np.zeros((2, 3))

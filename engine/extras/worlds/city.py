@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..._native.loaders import frozen
-from ...base.calls import checks_types
+from ...base.calls import checks_types, hinted
 from ...base.validation import own
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
@@ -133,6 +133,7 @@ class World:
         )
 
 
+@hinted
 def city(triangles: int = 1_000_000, seed: int = 0) -> World:
     """Return a city of about the given number of triangles, the same on every machine.
 

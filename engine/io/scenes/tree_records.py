@@ -15,6 +15,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..._native.loaders import frozen
+from ...base.near_words import meant
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
@@ -99,8 +100,9 @@ def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
         else next((index for index, name in enumerate(names) if name == variant), -1)
     )
     if tree is None or not 0 <= number < len(names):
-        known = ", ".join(map(repr, names)) or "none"
-        raise InvalidArgumentError(f"no variant {shown(variant)} (there are: {known})")
+        known = f" (there are: {', '.join(map(repr, names))})" if names else ": the file has none"
+        hint = meant(variant, names) if isinstance(variant, str) else ""
+        raise InvalidArgumentError(f"no variant {shown(variant)}{known}{hint}")
     for record in tree.meshes:
         for part in record.parts:
             if number in part.variants:

@@ -21,8 +21,9 @@ from .creases import CREASE_ANGLE
 _FLAT, _SHARP = math.radians(20.0), math.radians(40.0)
 #: So many edges may meet in between, for each that is sharp.
 _BETWEEN = 0.6
-#: In large meshes, only faces in some runs of so many are looked at for that.
-_RUNS, _RUN = 4, 2000
+#: In large meshes, only faces in some runs of so many are looked at for that. Short runs would miss
+#: the sharp edges, which lie between patches of faces that are stored far from each other.
+_RUNS, _RUN = 4, 10_000
 #: Meshes with more faces, or more sides at such edges, are too fine for lines.
 MOST_FACES, MOST_SIDES = 300_000, 60_000
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...base import linalg
+from ...base.box_corners import box_corners
 from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh, instance_matrices
@@ -55,9 +56,7 @@ def bounds_of(placed: list[tuple[Mesh, np.ndarray]]) -> np.ndarray:
     """Return the box around placed meshes, (2, 3) float64."""
     boxes = []
     for mesh, pose in placed:
-        low, high = mesh.bounds
-        corners = np.array([[(low, high)[k >> a & 1][a] for a in range(3)] for k in range(8)])
-        corners = linalg.transform_points(pose, corners)
+        corners = linalg.transform_points(pose, box_corners(mesh.bounds))
         boxes.append((corners.min(axis=0), corners.max(axis=0)))
     lows, highs = zip(*boxes, strict=True)
     return np.stack([np.min(lows, axis=0), np.max(highs, axis=0)])

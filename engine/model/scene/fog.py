@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...base.calls import hints_keywords
 from ...base.validation import finite, not_negative
 from ...choices import ColorLike
 from ...errors import InvalidArgumentError
 from ..materials.colors import check_color
 
 
+@hints_keywords
 @dataclass(frozen=True)
 class Fog:
     """Linear fog: none up to the near distance, full from the far distance on.
@@ -46,6 +48,7 @@ class Fog:
         self.__dict__.update(color=color, near=near, far=far)  # past __setattr__, which refuses
 
 
+@hints_keywords
 @dataclass(frozen=True)
 class ExponentialFog:
     """Exponential fog, which begins at the camera.

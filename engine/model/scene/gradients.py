@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...base.calls import hints_keywords
 from ...choices import ColorLike
 from ..materials.colors import check_color
 
 
+@hints_keywords
 @dataclass(frozen=True)
 class Gradient:
     """A background from one colour at the top of the picture to another at its bottom.

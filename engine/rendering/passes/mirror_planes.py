@@ -169,7 +169,7 @@ class MirrorFinder:
                 for faces in flat:
                     _add(planes, _placed(faces, pose, picture.view, backs), slack)
         if len(planes) > MOST_MIRRORS:
-            self._warn(
+            self.warn(
                 f"a view shows {MOST_MIRRORS} mirrors, not {len(planes)}: the others look as "
                 "without Material.mirror"
             )
@@ -185,14 +185,15 @@ class MirrorFinder:
             if flat is None:
                 names = ", ".join(one.name or "?" for one in mesh.materials if one.mirror > 0)
                 kind = "instances" if isinstance(obj, InstancedMesh) else "faces that are not flat"
-                self._warn(
+                self.warn(
                     f"{mesh!r}: {kind} look as without Material.mirror (materials: {names}): a "
                     f"mirror is a mesh whose faces lie in at most {MOST_MIRRORS} planes"
                 )
             elif flat:
                 self._flat[number] = flat
 
-    def _warn(self, words: str) -> None:
+    def warn(self, words: str) -> None:
+        """Warn of what is left out, once."""
         if words not in self._warned:
             self._warned.add(words)
             warn(words)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
+from ...base.box_corners import box_corners
 from .._view import View
 from .mirror_planes import MirrorPlane, slack_of
 
@@ -126,7 +127,8 @@ class Reflection(View):
         if view.eye[3]:
             steepest = _steepest(clip, plane.normal)
         else:
-            steepest = _greatest_height(plane, bounds) / float(clip[3, 3])
+            highest = float(plane.height(box_corners(bounds)).max())
+            steepest = highest / float(clip[3, 3])
         self.is_usable = bool(0.0 < steepest < np.inf) and bool(np.isfinite(clip).all())
         clip[2] = above * (2.0 / steepest if self.is_usable else 1.0) - clip[3]
         self.clip_from_world = clip
@@ -158,10 +160,3 @@ def _steepest(clip: NDArray[np.float64], normal: NDArray[np.float64]) -> float:
     if not volume:
         return 0.0
     return max((rises[2] + i * rises[0] + j * rises[1]) / volume for i in (-1, 1) for j in (-1, 1))
-
-
-def _greatest_height(plane: MirrorPlane, bounds: NDArray[np.float64]) -> float:
-    ends = bounds.tolist()
-    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-    points = np.array([[ends[end][axis] for axis, end in enumerate(one)] for one in corners])
-    return float(plane.height(points).max())

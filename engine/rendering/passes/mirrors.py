@@ -49,7 +49,9 @@ class Mirrors(Pass):
             fineness = self.tools.samples[0] * view.scale
             options = as_mirrored(picture.options, fineness)
             shot = self._shot(picture, view, fineness)
-            radiance = self._painter(len(picture.mirrors)).radiance(scene, options, shot)
+            painter = self._painter(len(picture.mirrors))
+            radiance = painter.radiance(scene, options, shot)
+            self.tools.memory.add_mirror(painter.memory)
             numbers = (*plane.normal.tolist(), plane.offset)
             place = view.part.left, view.part.top, view.scale
             picture.mirrors.append((numbers, slack, *place, radiance))
@@ -61,7 +63,13 @@ class Mirrors(Pass):
         axis, multiple = self.tools.samples
         samples = picture.size[0] * axis, picture.size[1] * axis
         part = part_of(plane, picture.view, samples)
-        if part is None or max(part.width, part.height) > MAX_SIZE:
+        if part is None:
+            return None
+        if max(part.width, part.height) > MAX_SIZE:
+            self._finder.warn(
+                f"a mirror that shows on {part.width}x{part.height} samples looks as without "
+                f"Material.mirror: they may be {MAX_SIZE} a side; fewer pixels or samples help"
+            )
             return None
         is_small = _FINER * max(part.width, part.height) <= MAX_SIZE
         scale = _FINER if multiple and is_small else 1

@@ -39,6 +39,9 @@ class Shot(NamedTuple):
 class MirrorPainter(Protocol):
     """Draws what a mirror reflects, with passes of its own."""
 
+    @property
+    def memory(self) -> FrameMemory: ...
+
     def radiance(
         self, scene: AnyScene, options: RenderOptions, shot: Shot
     ) -> NDArray[np.float32]: ...

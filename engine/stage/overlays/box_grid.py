@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...base.box_corners import box_corners
 from ...model.scene.nodes import Node
 from ...model.scene.staged_scene import StagedScene
 from ...rendering.frame import Frame
@@ -41,8 +42,7 @@ class BoxGrid:
     @property
     def corners(self) -> np.ndarray:
         """The corners of the grid, (8, 3)."""
-        ends = np.stack([self._grid.low, self._grid.high])
-        return np.array([[ends[k >> axis & 1, axis] for axis in range(3)] for k in range(8)])
+        return box_corners(np.stack([self._grid.low, self._grid.high]))
 
     @property
     def shows(self) -> bool:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...base.box_corners import CORNER_ENDS, box_corners
 from ...model.scene.cameras import Camera, far_depth
 from ...model.scene.instances import MANY, InstancedMesh, instance_tree
 from ...model.scene.scene import Scene
@@ -49,11 +50,11 @@ def tree_lines(scene: Scene) -> list[Lines]:
     too many boxes, the lowest levels are left out.
     """
     scene.data.update()
-    trees = [([_corners(level) for level in scene.data.arrays.boxes_by_level()], np.eye(4))]
+    trees = [([_finite(level) for level in scene.data.arrays.boxes_by_level()], np.eye(4))]
     for node in scene.nodes:
         if isinstance(node.object, InstancedMesh) and len(node.object) >= MANY and node.shown:
             levels = instance_tree(node.object)[0].boxes_by_level()
-            trees.append(([_corners(level) for level in levels], node.world_pose))
+            trees.append(([_finite(level) for level in levels], node.world_pose))
     lines, room = [], MOST_IN_TREES
     for levels, pose in trees:
         for number, boxes in reversed(list(enumerate(levels))):
@@ -66,15 +67,15 @@ def tree_lines(scene: Scene) -> list[Lines]:
     return lines[::-1]
 
 
-def _corners(rows: np.ndarray) -> np.ndarray:
-    """Return the finite boxes among (N, 6) as corners (N, 2, 3) float64."""
+def _finite(rows: np.ndarray) -> np.ndarray:
+    """Return the finite boxes among (N, 6) as ends (N, 2, 3) float64."""
     return rows[np.isfinite(rows).all(axis=1)].reshape(-1, 2, 3).astype(np.float64)
 
 
 def frustum_lines(camera: Camera, pose: np.ndarray, size: tuple[int, int]) -> list[Lines]:
     """Return the frustum of a camera at a pose."""
     view_from_clip = linalg.inverse(np.asarray(camera.projection(size), np.float64))
-    signs = np.array([[(k >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for k in range(8)])
+    signs = CORNER_ENDS * 2.0 - 1.0
     signs[signs[:, 2] > 0.0, 2] = far_depth(camera)
     corners = view_from_clip[:, 3] + sum(
         signs[:, axis, np.newaxis] * view_from_clip[:, axis] for axis in range(3)
@@ -110,6 +111,4 @@ def _before(frame: Frame, segments: np.ndarray) -> np.ndarray:
 
 def _edges(boxes: np.ndarray) -> np.ndarray:
     """Return the edges of boxes (N, 2, 3) as segments (12 N, 2, 3)."""
-    picks = np.array([[k >> axis & 1 for axis in range(3)] for k in range(8)])
-    corners = boxes[:, picks, np.arange(3)]
-    return corners[:, _EDGES].reshape(-1, 2, 3)
+    return box_corners(boxes)[:, _EDGES].reshape(-1, 2, 3)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...base import linalg
+from ...base.calls import hinted
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.orbiting import home_axes
@@ -23,6 +24,7 @@ from ..viewed_thing import viewed_of
 from .viewpoint import UP_DIRECTIONS
 
 
+@hinted
 def frame_bounds(
     bounds: Any,
     *,
@@ -70,6 +72,7 @@ def frame_bounds(
     return camera, pose if viewed is None else pose_in_file(viewed, pose)
 
 
+@hinted
 def frame_scene(
     scene: Any,
     *,

@@ -12,6 +12,7 @@ from ....model.materials.material import Material
 from ...sheet.contact_sheet import Sheet, contact_sheet
 from ...sheet.views import DEFAULT_VIEWS, check_views
 from ..options.input_options import model_files
+from ..options.picture_options import look
 from ..options.scalar_options import marks
 from ..outputs import (
     STANDARD_OUTPUT,
@@ -35,7 +36,7 @@ def sheet(args: argparse.Namespace) -> int:
         up=args.up,
         unit=args.unit,
         root=args.root,
-        look=args.look,
+        look=look(args),
         material=None if args.color is None else Material(color=args.color),
         **marks(args),
         backend=args.backend,

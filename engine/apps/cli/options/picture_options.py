@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import get_args
+import argparse
+from typing import TYPE_CHECKING, Any, get_args
 
 from ....choices import Backend, LookName, Samples
 from .. import values
 from ..usage import UsageError
+
+if TYPE_CHECKING:
+    from ....stage.look import Look
 
 #: Default antialiasing method and samples of pictures and turntables.
 PICTURE = ("msaa", 4)
@@ -18,6 +22,7 @@ _NONE = "none"
 _SUPERSAMPLES = (1, 4, 16)
 #: The looks of models; the first is the default.
 LOOKS = get_args(LookName)
+_GROUNDS = {"shadow": True, "mirror": "mirror", "none": False}
 BACKENDS = get_args(Backend)
 
 
@@ -48,6 +53,27 @@ def add_look(group) -> None:
         "with ambient occlusion and neutral tone mapping; plain: with none of these, lit from the "
         "camera, before black. Other options have the last word",
     )
+    group.add_argument(
+        "--ground",
+        choices=tuple(_GROUNDS),
+        help="what the model stands on: its shadow on an invisible ground, as in the look studio, "
+        "the same with its reflection as in a polished floor, or nothing",
+    )
+    group.add_argument(
+        "--feature-edges",
+        action=argparse.BooleanOptionalAction,
+        help="draw sharp edges and borders of faces as thin lines; by default in the look studio, "
+        "of machine parts that state no material",
+    )
+
+
+def look(args: argparse.Namespace) -> Look:
+    """Return the look that the options name."""
+    from ....stage.look import check_look
+
+    changes = {"ground": _GROUNDS.get(args.ground), "feature_edges": args.feature_edges}
+    given: dict[str, Any] = {name: value for name, value in changes.items() if value is not None}
+    return check_look(args.look).replace(**given)
 
 
 def add_picture(parser) -> None:

@@ -130,7 +130,7 @@ def settings(args: argparse.Namespace, **more) -> Settings:
     if None not in (args.near, args.far) and args.near >= args.far:
         raise UsageError("--near must be less than --far")
     return Settings(
-        look=args.look,
+        look=picture_options.look(args),
         material=scene_options.paint(args),
         appearance=appearance_options.appearance_of(args),
         up=args.up,

@@ -12,7 +12,7 @@ from typing import Any
 from ...._native.images import encode_png
 from ....model.materials.colors import linear_color
 from ....model.materials.linear_colors import LinearColor
-from ....model.materials.material import Material, is_implied
+from ....model.materials.material import Material, is_implied, states_nothing
 from ....model.materials.phong import roughness_of
 from ....model.materials.textures import PlacedTexture, Texture, image_file_of
 from ...writing.losses import lost_of_reading
@@ -51,7 +51,7 @@ class GltfMaterialList:
         The extensions used.
     required : set of str
     converted : int
-        How many materials were converted to physical ones.
+        How many materials that state something were converted to physical ones.
     mirrors : list of str
         The names of materials that mirror, which glTF cannot hold.
     lost : dict of str to int
@@ -95,7 +95,7 @@ class GltfMaterialList:
             return twins.pop()
         self._twins.setdefault((words, flat), []).append(len(self.materials))
         self.materials.append(entry)
-        self.converted += not material.is_physical
+        self.converted += not (material.is_physical or states_nothing(material))
         return len(self.materials) - 1
 
     def _entry(self, material: Material) -> dict[str, Any]:

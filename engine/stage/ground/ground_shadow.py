@@ -19,18 +19,18 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..base import linalg
-from ..base.dirty_tracking import Watch
-from ..choices import FrameCull
-from ..model.geometry.mesh import Mesh
-from ..model.materials.material import textures_of
-from ..model.scene.cameras import Camera
-from ..model.scene.instances import InstancedMesh
-from ..model.scene.orbiting import cosine, sine
-from ..model.scene.staged_scene import StagedScene
-from ..rendering.casters import placed_casters
-from ..rendering.renderer import Renderer
-from .views.viewpoint import Sphere
+from ...base import linalg
+from ...base.dirty_tracking import Watch
+from ...choices import FrameCull
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import textures_of
+from ...model.scene.cameras import Camera
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.orbiting import cosine, sine
+from ...model.scene.staged_scene import StagedScene
+from ...rendering.casters import placed_casters
+from ...rendering.renderer import Renderer
+from ..views.viewpoint import Sphere
 
 #: The square's half side in model radii, and its texels per side.
 REACH, SIDE = 2.0, 512

@@ -1,0 +1,1 @@
+"""What the ground under a model shows of it: its shadow, and its reflection."""

@@ -18,7 +18,7 @@ static const number NUMBERS[] = {
     INTEGER(mode), INTEGER(cull), INTEGER(wireframe), INTEGER(hidden), INTEGER(shading), INTEGER(normals),
     INTEGER(culling), INTEGER(line_shape), INTEGER(point_shape), INTEGER(tone_mapping),
     INTEGER(remove_hidden_lines), INTEGER(transparent_outputs), INTEGER(alpha_to_coverage),
-    INTEGER(specular_antialiasing), INTEGER(opaque_only),
+    INTEGER(sample_shading), INTEGER(specular_antialiasing), INTEGER(opaque_only),
     FLOATS(line_width), FLOATS(point_size), FLOATS(line_color), FLOATS(background),
     INTEGER(gradient.shows), FLOATS(gradient.top), FLOATS(gradient.bottom), INTEGER(encode_srgb),
     INTEGER(decode_srgb), FLOATS(ambient), FLOATS(light_clamp), FLOATS(exposure),

@@ -134,6 +134,8 @@ typedef struct e3d_frame {
     int32_t msaa_samples; /* multisampling: 2, 4, 8 or 16, with samples_axis 1; else 0 */
     /* With multisampling: the alpha of E3D_ALPHA_MASK decides how many of a pixel's samples are covered */
     int32_t alpha_to_coverage;
+    /* With multisampling: each sample of a pixel gets a colour of its own, found where it lies (R195) */
+    int32_t sample_shading;
     /* Lobes of physically based materials are as wide as the normals in a pixel ask for (R193) */
     int32_t specular_antialiasing;
     e3d_ambient_light ambient_light;      /* beside ambient */

@@ -68,7 +68,7 @@ uint32_t ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_
     e3d_alpha_mode mode = alpha_mode_of(piece);
     if (mode == E3D_ALPHA_OPAQUE || (scene->pattern && ref_is_blended(scene->frame, piece)))
         return covered;
-    const ref_place at = {x, y, first_of(covered)};
+    const ref_place at = {x, y, first_of(covered), 0};
     ref_surface surface;
     ref_surface_at(scene, piece, &at, &surface);
     float alpha = surface.alpha; /* R80 */
@@ -165,10 +165,12 @@ void ref_sort_fragments(const ref_scene *scene, ref_band *band)
     index_fragments(band);
 }
 
-/* R105: the first sample of the pixel in which the piece has a fragment. */
-static ref_place first_with(const ref_band *band, const ref_place *at, int64_t piece)
+/* R105: the first sample of the pixel in which the piece has a fragment; R195: this one alone. */
+static ref_place first_with(const ref_scene *scene, const ref_band *band, const ref_place *at, int64_t piece)
 {
-    ref_place first = {at->x, at->y, 0};
+    ref_place first = {at->x, at->y, 0, 0};
+    if (scene->frame->sample_shading)
+        return (ref_place){at->x, at->y, at->number, 1};
     for (; first.number < at->number; first.number++) {
         size_t sample = ref_sample_at(band, &first);
         for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++)
@@ -205,7 +207,7 @@ static void add_bends(const ref_scene *scene, const ref_band *band, const ref_pl
     size_t sample = ref_sample_at(band, at);
     ref_no_bend(sum);
     for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1] && ref_frame_bends(scene->frame); i++) {
-        const ref_place first = first_with(band, at, band->fragments[i].piece);
+        const ref_place first = first_with(scene, band, at, band->fragments[i].piece);
         layer layer;
         if (find_layer(scene, &scene->pieces.items[band->fragments[i].piece], &first, &layer))
             ref_add_bend(scene->frame, &layer.surface, &first, sum);
@@ -221,7 +223,7 @@ void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *a
     ref_begin_behind(scene->frame, &sum, at, color, alpha);
     for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++) {
         const ref_piece *piece = &scene->pieces.items[band->fragments[i].piece];
-        const ref_place first = first_with(band, at, band->fragments[i].piece);
+        const ref_place first = first_with(scene, band, at, band->fragments[i].piece);
         layer layer;
         float shaded[3];
         if (scene->frame->wireframe == E3D_WIRE_ONLY && piece->primitive.kind == REF_FACE)

@@ -103,7 +103,7 @@ static e3d_status raster_pixel(const ref_scene *scene, const ref_piece *piece, i
     e3d_status status = E3D_OK;
     covered = covered ? ref_alpha_covers(scene, piece, x, y, covered) : 0;
     for (int32_t n = 0; n < scene->pixel_samples && status == E3D_OK; n++) {
-        const ref_place at = {x, y, n};
+        const ref_place at = {x, y, n, 0};
         if (!(covered >> n & 1))
             continue;
         if (piece->primitive.kind == REF_EDGE)

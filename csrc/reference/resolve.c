@@ -63,11 +63,13 @@ static void background_color(const e3d_frame *frame, const ref_place *at, float 
     clamp_color(color, out);
 }
 
-/* R105: the first sample of the pixel that shows the same piece as this one. */
-static ref_place first_kept(const ref_band *band, const ref_place *at)
+/* R105: the first sample of the pixel that shows the same piece as this one; R195: this one alone. */
+static ref_place first_kept(const ref_scene *scene, const ref_band *band, const ref_place *at)
 {
     int64_t number = band->piece[ref_sample_at(band, at)];
-    ref_place first = {at->x, at->y, 0};
+    ref_place first = {at->x, at->y, 0, 0};
+    if (scene->frame->sample_shading)
+        return (ref_place){at->x, at->y, at->number, 1};
     while (band->piece[ref_sample_at(band, &first)] != number)
         first.number++;
     return first;
@@ -104,7 +106,7 @@ static int kept_color(ref_scene *scene, const ref_band *band, const ref_place *a
         return 0;
     }
     ref_surface surface;
-    const ref_place first = first_kept(band, at);
+    const ref_place first = first_kept(scene, band, at);
     find_surface(scene, piece, &first, &surface);
     ref_show(frame, &surface, out);
     scene->stats.pixels_shaded += first.number == at->number;
@@ -141,7 +143,7 @@ static void sum_rows(ref_scene *scene, const ref_band *band, int32_t x, int32_t 
         sum[c] = 0.0f;
     for (int32_t j = 0; j < n; j++)
         for (int32_t i = 0; i < n; i++) {
-            const ref_place at = {x + i, y + j, 0};
+            const ref_place at = {x + i, y + j, 0, 0};
             sum[3] = sum[3] + sample_color(scene, band, &at, color);
             for (int c = 0; c < 3; c++)
                 sum[c] = sum[c] + color[c];
@@ -154,7 +156,7 @@ static void sum_pairs(ref_scene *scene, const ref_band *band, int32_t x, int32_t
     float samples[E3D_MOST_MSAA_SAMPLES][4];
     int32_t count = scene->pixel_samples;
     for (int32_t n = 0; n < count; n++) {
-        const ref_place at = {x, y, n};
+        const ref_place at = {x, y, n, 0};
         samples[n][3] = sample_color(scene, band, &at, samples[n]);
     }
     for (; count > 1; count /= 2)
@@ -256,7 +258,7 @@ static void write_surface(const e3d_targets *targets, size_t pixel, const ref_su
 static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_t x, int32_t y,
                             const e3d_targets *targets, size_t pixel)
 {
-    const ref_place at = {x, y, 0};
+    const ref_place at = {x, y, 0, 0};
     size_t sample = ref_sample_at(band, &at);
     write_radiance(scene, band, &at, pixel, targets->radiance);
     int64_t end = band->first_fragment[sample + 1], number = band->piece[sample];

@@ -117,6 +117,7 @@ typedef struct ref_band {
 /* A sample: its column and row in the viewport, and with multisampling its number in the pixel. */
 typedef struct ref_place {
     int32_t x, y, number;
+    int32_t is_alone; /* R195 */
 } ref_place;
 
 static inline size_t ref_sample_at(const ref_band *band, const ref_place *at)

@@ -16,13 +16,13 @@ static void find_planes(ref_surface *s, float dx, float dy)
         s->weight[k] = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
 }
 
-/* R19, R105 and R190 */
+/* R19, R105, R190 and R195 */
 static void find_weights(const ref_scene *scene, ref_surface *s, const ref_place *at, const float beside[2])
 {
     float dx = (float)(at->x - s->piece->left), dy = (float)(at->y - s->piece->top);
     int is_beside = beside[0] != 0.0f || beside[1] != 0.0f;
     find_planes(s, dx, dy);
-    if (scene->pattern && !(s->weight[0] >= 0.0f && s->weight[1] >= 0.0f && s->weight[2] >= 0.0f))
+    if (scene->pattern && (at->is_alone || !(s->weight[0] >= 0.0f && s->weight[1] >= 0.0f && s->weight[2] >= 0.0f)))
         find_planes(s, dx + (float)scene->pattern->x[at->number] * (1.0f / 256.0f),
                     dy + (float)scene->pattern->y[at->number] * (1.0f / 256.0f));
     if (is_beside)

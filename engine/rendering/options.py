@@ -139,6 +139,7 @@ class OptionKeywords(TypedDict, total=False):
     point_shape: PointShape
     size_unit: SizeUnit
     alpha_to_coverage: bool
+    sample_shading: bool
     specular_antialiasing: bool
     ambient_occlusion: bool
     ambient_occlusion_radius: float | None
@@ -227,6 +228,11 @@ class RenderOptions:
         pixel's samples as lie on the side of the edge where alpha is above ``alpha_cutoff``, so
         that foliage has edges as smooth as those of faces, and does not vanish in the distance.
         Without it the alpha test keeps all samples of a pixel or none.
+    sample_shading : bool
+        With ``antialiasing="msaa"``: each sample of a pixel gets a colour of its own, so that edges
+        inside of faces are as smooth as those of faces: exact shadows, magnified
+        ``filter="nearest"`` textures, sharp highlights. It takes nearly as long as as many samples
+        a pixel without multisampling. Without it a face gets one colour in a pixel.
     specular_antialiasing : bool
         In mode "lit": physically based materials are as rough as their normals differ within a
         pixel, from curved meshes and from normal maps seen from afar, so that small highlights do
@@ -271,6 +277,7 @@ class RenderOptions:
     point_shape: PointShape = _choice("square", _native.POINT_SHAPES, "point_shape")
     size_unit: SizeUnit = _option("pixels", one_of(SIZE_UNITS))
     alpha_to_coverage: bool = _option(True, flag, "alpha_to_coverage")
+    sample_shading: bool = _option(False, flag, "sample_shading")
     specular_antialiasing: bool = _option(True, flag, "specular_antialiasing")
     ambient_occlusion: bool = _option(False, flag)
     ambient_occlusion_radius: float | None = _option(None, optional_positive)

@@ -161,6 +161,45 @@ def test_inside_a_surface_a_pixel_is_that_of_one_sample(backend):
     assert np.array_equal(draw(corners, 16, backend, colors), draw(corners, 1, backend, colors))
 
 
+def checkered(**options):
+    """A scene of one textured quad over all pixels, texels of 5.3 x 4.7 pixels; its texels."""
+    texels = np.random.default_rng(5).integers(0, 2, (7, 7, 1), np.uint8) * np.uint8([255] * 4)
+    texels[..., 3] = 255
+    uvs = np.float32([[0, 0], [SIZE[0] / 37.1, 0], [SIZE[0] / 37.1, SIZE[1] / 32.9]])
+    uvs = np.concatenate([uvs, [[0, SIZE[1] / 32.9]]]).astype(np.float32)
+    points = np.float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    texture = e3d.Texture(texels, color_space="linear", filter="nearest")
+    material = e3d.Material(texture=texture, two_sided=True, **options)
+    mesh = e3d.Mesh(points, [[0, 1, 2], [0, 2, 3]], uvs=uvs, materials=[material])
+    scene = e3d.Scene(background=(0, 0, 0))
+    scene.add(mesh)
+    return scene, texels[..., 0] // 255
+
+
+@pytest.mark.parametrize("samples", PATTERNS)
+@pytest.mark.parametrize("mode", ["opaque", "blend"])
+def test_samples_that_are_shaded_alone_show_what_lies_at_each(samples, mode, backend):
+    """R195: a pixel is the mean of the texels at its samples, of what is kept and of fragments."""
+    scene, texels = checkered(alpha_mode=mode)
+    counts, sure = np.zeros(SIZE[::-1]), np.ones(SIZE[::-1], bool)
+    for offset in PATTERNS[samples]:
+        u = (np.arange(SIZE[0]) + 0.5 + offset[0] / 16) / 5.3
+        v = (SIZE[1] - (np.arange(SIZE[1]) + 0.5 + offset[1] / 16)) / 4.7
+        counts += texels[::-1][np.ix_(v.astype(int), u.astype(int))]
+        for near in (np.abs(u - np.rint(u)) < 1e-3, (np.abs(v - np.rint(v)) < 1e-3)[:, None]):
+            sure &= ~near  # where rounding may decide
+    how = {"color_space": "linear", "samples": samples, "antialiasing": "msaa"}
+    pictures = []
+    for alone in (False, True):
+        with Renderer(SIZE, backend=backend, **how) as renderer:
+            frame = renderer.render(scene, clip_camera(), mode="unlit", sample_shading=alone)
+            pictures.append(frame.color[..., 0].copy())
+    expected = np.floor(255 * counts / samples + 0.5)
+    assert (pictures[1] == expected)[sure].all()
+    assert sure.mean() > 0.9 and (counts[sure] % samples).any()
+    assert set(np.unique(pictures[0])) == {0, 255}  # one colour in a pixel
+
+
 def masked(points, cutoff=0.5, **arrays):
     """Two triangles between four points of clip space, masked, white and unlit."""
     material = e3d.Material(

@@ -100,3 +100,23 @@ variant("msaa_4_painter_to_coverage", multisampled, "alpha_painter", 4, alpha_to
 variant(
     "msaa_4_wireframe_to_coverage", multisampled, "alpha_wireframe_only", 4, alpha_to_coverage=True
 )
+
+for _name in (
+    "alpha_hidden_none",
+    "alpha_mode_lit",
+    "alpha_painter",
+    "alpha_wireframe_only",
+    "alpha_wireframe_overlay",
+    "anisotropic_maps",
+    "exact_shadow_holes_nearest",
+    "fog_in_front",
+    "glass_front",
+    "gradient",
+    "many_small_triangles",
+    "mode_lit",
+    "physical_maps_trilinear",
+    "shadow_on_glass",
+    "transparent_background",
+):
+    variant(f"msaa_4_{_name}_alone", multisampled, _name, 4, sample_shading=True)
+variant("msaa_16_alpha_mode_lit_alone", multisampled, "alpha_mode_lit", 16, sample_shading=True)

@@ -36,6 +36,7 @@ NUMBERS = {
     "transparent_outputs": (True,),
     "bloom": (1.0,),
     "alpha_to_coverage": (False,),
+    "sample_shading": (True,),
     "specular_antialiasing": (False,),
     "ambient_occlusion": (True,),
     "ambient_occlusion_radius": (0.7,),

@@ -362,6 +362,7 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     if (frame->samples_axis == 1 && random_once_in(r, 3))
         frame->msaa_samples = 2 << random_below(r, 4);
     frame->alpha_to_coverage = random_below(r, 2);
+    frame->sample_shading = frame->msaa_samples && random_once_in(r, 2);
     frame->specular_antialiasing = random_below(r, 2);
 }
 

@@ -109,6 +109,7 @@ void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out)
     }
     out->runs = 1;
     out->pattern = NULL;
+    out->at_samples = 0;
     out->count = count;
     out->primitives = primitives;
 }

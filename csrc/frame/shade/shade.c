@@ -74,6 +74,7 @@ static void shade_primitives(const e3d_steps *steps, int32_t first, int32_t end)
     int32_t surface = 0;
     batch->count = batch->facets = 0;
     batch->pattern = memory->shown.pattern;
+    batch->at_samples = memory->shown.at_samples;
     batch->finest = memory->shown.finest;
     memcpy(batch->beside, memory->shown.beside, sizeof batch->beside);
     for (int32_t p = first; p != end;) {
@@ -131,5 +132,16 @@ int e3d_shade_runs(const e3d_shade_in *in, const e3d_tile *tile, int32_t count, 
 {
     e3d_runs_memory *runs = &out->memory->runs;
     e3d_show_runs(e3d_sort_runs(runs->rows, runs->spare, count), count, &out->memory->shown);
+    return e3d_shade_shown(in, tile, out);
+}
+
+int e3d_shade_plane(const e3d_shade_in *in, const e3d_tile *tile, int32_t count, int32_t number, const e3d_shade_out *out)
+{
+    e3d_shade_memory *memory = out->memory;
+    e3d_show_runs(e3d_sort_runs(memory->runs.rows, memory->runs.spare, count), count, &memory->shown);
+    memory->shown.pattern = in->pass->pattern;
+    memory->shown.at_samples = 1;
+    for (int i = 0; i < E3D_BATCH + E3D_PAD; i++)
+        memory->batch.number[i] = number; /* take_runs leaves it */
     return e3d_shade_shown(in, tile, out);
 }

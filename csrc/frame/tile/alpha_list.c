@@ -1,5 +1,5 @@
 /* raster, records with alpha: lists the samples that they cover, and has them shaded. With multisampling an entry is a pixel, with
- * all samples that the record covers there (R108). */
+ * all samples that the record covers there (R108), or a sample of one (R195). */
 #include "base/grow.h"
 #include "kernels/kernels.h"
 #include "kernels/types/alpha.h"
@@ -19,16 +19,18 @@ static void empty(const e3d_tile_job *job)
 {
     e3d_shown_begin(&job->memory->shade.shown, 0);
     job->memory->shade.shown.pattern = job->in->pass->pattern;
+    job->memory->shade.shown.at_samples = job->in->pass->pattern && job->memory->multisample->alpha.alone;
 }
 
 /* Begins a list of pixels in planes; 0 when memory is out. */
-static int begin_planes(const e3d_tile_job *job, int depths)
+static int begin_planes(const e3d_tile_job *job, int depths, int alone)
 {
     const e3d_sample_pattern *pattern = job->in->pass->pattern;
     e3d_multisample_memory *memory = job->memory->multisample;
     if (!e3d_array_reserve(&memory->covers, E3D_SHOWN_ROOM + 2 * E3D_PAD, sizeof(int32_t)))
         return 0;
-    memory->alpha = (e3d_msaa_list){.shown = &job->memory->shade.shown, .cover = memory->covers.data, .pattern = pattern};
+    memory->alpha = (e3d_msaa_list){.shown = &job->memory->shade.shown, .cover = memory->covers.data, .alone = alone, .pattern = pattern};
+    empty(job);
     for (int s = 0; s < pattern->count; s++) {
         memory->alpha.limit[s] = depths ? job->visible[s].z : job->memory->marks.bound;
         memory->alpha.kept[s] = job->visible[s].id;
@@ -36,14 +38,15 @@ static int begin_planes(const e3d_tile_job *job, int depths)
     return 1;
 }
 
-/* Begins a list. If the last record in order shows, depths hide nothing. */
+/* Begins a list. If the last record in order shows, depths hide nothing. Masks have one alpha in a pixel, even where samples are
+ * shaded each (R195); these list `all`. */
 int e3d_alpha_begin(const e3d_tile_job *job, int all)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
     int depths = !all && !e3d_plans(job->in->pass, E3D_PLAN_SORTS);
-    empty(job);
     if (job->in->pass->pattern)
-        return begin_planes(job, depths);
+        return begin_planes(job, depths, !all && job->in->pass->frame->sample_shading);
+    empty(job);
     memory->list = (e3d_alpha_list){.limit = depths ? job->visible->z : job->memory->marks.bound,
                                     .kept = job->visible->id,
                                     .shown = &job->memory->shade.shown,

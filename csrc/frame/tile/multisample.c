@@ -1,6 +1,6 @@
 /* raster with multisampling: draws a tile's records into the planes of its samples. A pixel whose samples all show the same is
  * shaded as with one sample; other pixels are mixed (msaa_mixed.c). If all samples of a pixel have one colour, their average is
- * that colour to the bit (R106), so that it is encoded at once. */
+ * that colour to the bit (R106), so that it is encoded at once. If samples are shaded alone (R195), so is each plane. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -140,19 +140,45 @@ static int shade_shared(const e3d_tile_job *job, int gaps)
     return !count || e3d_shade_runs(job->in->shade, &job->tile, count, &job->shades);
 }
 
-int e3d_multisample_draw(const e3d_tile_job *job)
+/* Shades plane after plane, as pictures of one sample a pixel. */
+static int shade_planes(const e3d_tile_job *job)
 {
+    const e3d_prepared *pass = job->in->pass;
     e3d_tile_memory *memory = job->memory;
-    int edges = e3d_plans(job->in->pass, E3D_PLAN_EDGES), layered = job->blended || edges;
-    draw_planes(job, layered || job->masked);
-    if (!e3d_alpha_cut(job))
-        return 0;
-    e3d_lap(memory, &memory->ns_raster);
+    int done = 1, gaps;
+    memory->pixels.sampled = 1;
+    for (int s = 0; s < pass->pattern->count && done; s++) {
+        job->visible[s].noted = 0; /* all IDs are written */
+        int32_t count = pass->kernels->find_runs(&job->visible[s], job->tile.width, job->tile.height, memory->shade.runs.rows, &gaps);
+        if (gaps)
+            e3d_resolve_begin(job->in->shade->store, &memory->pixels);
+        done = !count || e3d_shade_plane(job->in->shade, &job->tile, count, s, &job->shades);
+        memcpy(&memory->multisample->samples[s], &memory->pixels.samples, sizeof memory->pixels.samples);
+    }
+    memory->pixels.sampled = 0;
+    return done;
+}
+
+/* Shades each surface in each pixel once (R105); `layered`: its colours stay in the samples. */
+static int shade_pixels(const e3d_tile_job *job, int layered)
+{
     if (layered)
         mix_all(job);
     else if (!shade_shared(job, split(job)))
         return 0;
-    if (!e3d_mixed_shade(job, layered) || !e3d_alpha_blend(job))
+    return e3d_mixed_shade(job, layered);
+}
+
+int e3d_multisample_draw(const e3d_tile_job *job)
+{
+    e3d_tile_memory *memory = job->memory;
+    int edges = e3d_plans(job->in->pass, E3D_PLAN_EDGES), alone = job->in->pass->frame->sample_shading;
+    int layered = job->blended || edges || alone;
+    draw_planes(job, layered || job->masked);
+    if (!e3d_alpha_cut(job))
+        return 0;
+    e3d_lap(memory, &memory->ns_raster);
+    if (!(alone ? shade_planes(job) : shade_pixels(job, layered)) || !e3d_alpha_blend(job))
         return 0;
     e3d_lap(memory, &memory->ns_shade);
     if (edges && !e3d_slots_mark_planes(job))

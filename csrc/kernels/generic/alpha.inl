@@ -155,6 +155,19 @@ static ALWAYS_INLINE uint32_t cover_plane(const e3d_piece *p, const float *limit
     return equal ? shown | alpha_ties(equal, kept + at, p, table) : shown;
 }
 
+/* Lists the samples of one vector of pixels, each alone. */
+static ALWAYS_INLINE int32_t cover_alone(const e3d_piece *pieces, uint32_t live, int32_t x, int32_t y, const e3d_record_table *table,
+                                         int32_t count, e3d_msaa_list *out)
+{
+    vi32 pixel = v_addi(v_iota(), v_seti(y * E3D_TILE + x));
+    for (int s = 0; s < out->pattern->count; s++) {
+        uint32_t shown = live >> s & 1 ? cover_plane(&pieces[s], out->limit[s], out->kept[s], x, y, table) & setup_tail(V_LANES) : 0;
+        v_pack(out->cover + count, v_seti(1 << s), shown);
+        count += v_pack(out->shown->sample + count, v_ori(pixel, v_seti(s << E3D_SHOWN_NUMBER)), shown);
+    }
+    return count;
+}
+
 /* Lists the pixels of one vector. */
 static ALWAYS_INLINE int32_t cover_vector(const e3d_piece *pieces, uint32_t live, int32_t x, int32_t y, const e3d_record_table *table,
                                           int32_t count, e3d_msaa_list *out)
@@ -179,9 +192,11 @@ static int32_t kernel_cover_msaa(const e3d_piece *pieces, uint32_t live, int32_t
     e3d_shown *shown = out->shown;
     const int32_t first = shown->count, x0 = pieces->x0, x1 = pieces->x1;
     int32_t count = first;
-    for (; y <= last && count + (x1 - x0 + 1) <= E3D_SHOWN_ROOM; y++)
+    int32_t row = (x1 - x0 + 1) * (out->alone ? out->pattern->count : 1);
+    for (; y <= last && count + row <= E3D_SHOWN_ROOM; y++)
         for (int32_t x = x0; x <= x1; x += V_LANES)
-            count = cover_vector(pieces, live, x, y, table, count, out);
+            count = out->alone ? cover_alone(pieces, live, x, y, table, count, out)
+                               : cover_vector(pieces, live, x, y, table, count, out);
     for (int32_t i = first; i < count; i += V_LANES)
         v_storei(shown->of + i, v_seti(shown->primitives));
     shown->primitive[shown->primitives] = (e3d_shown_primitive){pieces->slot, first};

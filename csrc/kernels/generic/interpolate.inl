@@ -39,8 +39,8 @@ static ALWAYS_INLINE vf32 interpolate_offset(const int32_t *offsets, vi32 number
     return v_mul(v_float(v_gatheri(offsets, number)), v_setf(1.0f / E3D_SUBPIXEL));
 }
 
-/* R105: interpolates at the pixel's centre if no weight is negative there, else at the given sample; or beside that (R190),
- * where weights may be negative. */
+/* R105: interpolates at the pixel's centre if no weight is negative there, else at the given sample (R195: always); or beside that
+ * (R190), where weights may be negative. */
 static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_surfaces *s, const element_lanes *lanes, int same,
                                              weight_lanes *out)
 {
@@ -50,7 +50,7 @@ static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_
     take_three(s->p, lanes, same, p);
     take_three(s->px, lanes, same, px);
     take_three(s->py, lanes, same, py);
-    vmask inside = v_eqi(v_seti(0), v_seti(0));
+    vmask inside = v_eqi(v_seti(0), v_seti(batch->at_samples));
     for (int k = 0; k < 3; k++) {
         out->w[k] = v_add(v_add(p[k], v_mul(out->dx, px[k])), v_mul(out->dy, py[k]));
         inside = v_mand(inside, v_ge(out->w[k], zero));

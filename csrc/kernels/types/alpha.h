@@ -24,6 +24,7 @@ typedef struct e3d_msaa_list {
     const int32_t *kept[E3D_MOST_MSAA_SAMPLES];
     e3d_shown *shown;
     int32_t *cover; /* of each entry; E3D_PAD more are written */
+    int alone;      /* not 0: each covered sample is an entry of its own (R195) */
 } e3d_msaa_list;
 
 /* The layers that blended records add to a tile, sample after sample: sample s has those from first[s] to first[s + 1] - 1. */

@@ -92,6 +92,7 @@ typedef struct e3d_batch {
     const e3d_sample_pattern *pattern;
     int32_t number[E3D_BATCH + E3D_PAD];   /* the sample of the pattern that replaces the centre, if that can't be used */
     e3d_lane_array shift[2];               /* the offset from the centre in samples */
+    int at_samples;                        /* not 0: the centre is never used (R195) */
     float beside[2];                       /* how much is added to that (R190) */
     int finest;                            /* not 0: textures are read at level 0, once (R190) */
 } e3d_batch;

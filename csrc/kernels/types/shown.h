@@ -31,6 +31,7 @@ typedef struct e3d_shown {
     int runs;              /* not 0: `sample` has runs */
     /* Not NULL: an entry is pixel | number of a sample of the pattern << E3D_SHOWN_NUMBER (R105) */
     const e3d_sample_pattern *pattern;
+    int at_samples;  /* with a pattern: not 0: values are found at samples, never at pixels' centres (R195) */
     int finest;      /* not 0: textures are read at level 0 (R190) */
     float beside[2]; /* with a pattern: how many pixels to the right of entries and below them values are found (R190) */
 } e3d_shown;
@@ -74,7 +75,7 @@ static inline void e3d_shown_begin(e3d_shown *shown, int runs)
 {
     shown->runs = runs;
     shown->pattern = NULL;
-    shown->finest = 0;
+    shown->at_samples = shown->finest = 0;
     shown->beside[0] = shown->beside[1] = 0.0f;
     shown->count = shown->primitives = 0;
 }

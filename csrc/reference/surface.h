@@ -23,6 +23,7 @@ typedef struct ref_physical {
     float sheen[3], sheen_roughness;
     float transmission, depth; /* depth: the distance in world units over which light is absorbed (R134) */
     float scale;               /* the world units of a thickness of 1, 0 on back faces (R134) */
+    float diffuse_transmission, passing[3], body; /* D and P of R168, and its depth */
     ref_stretch stretch;       /* used if the material has anisotropy */
     float iridescence, film_thickness;
 } ref_physical;
@@ -99,6 +100,8 @@ void ref_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
  * is out of range. */
 int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation);
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+/* R169: the light that a white surface would show on the other side. */
+void ref_backlight(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
 /* shadow.c */
@@ -144,7 +147,8 @@ void ref_bend_normal(const ref_stretch *stretch, const float normal[3], const fl
 /* R133: whether a piece lets light pass. */
 int ref_transmits(const e3d_frame *frame, const ref_piece *piece);
 float ref_transmitting_alpha(const e3d_material *material, float alpha);
-/* R134 */
+/* R134: whether a body absorbs light. */
+int ref_absorbs(const e3d_physical *p);
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 /* R135: blends a fragment that transmits over a sample. */
 void ref_lay_transmitting(const float color[3], float alpha, const float transmittance[3], float under[3], float *under_alpha);

@@ -11,6 +11,7 @@
 #include "frame/pass/view.h"
 #include "frame/shade/alpha_batch.h"
 #include "frame/shade/ambient.h"
+#include "frame/shade/backlight.h"
 #include "frame/shade/bend.h"
 #include "frame/shade/texture_slots.h"
 #include "frame/shade/mirrors.h"
@@ -173,6 +174,7 @@ static void add_radiance_steps(e3d_steps *s)
 {
     const e3d_bucket *bucket = s->bucket;
     add(s, bucket->lit, find_visibility);
+    add(s, bucket->translucent, e3d_find_backlight);
     add(s, e3d_receives_exact_shadows(s->pass, bucket), hide_lights);
     add(s, bucket->mirrors, e3d_find_mirrors);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);

@@ -61,6 +61,12 @@ static inline float ref_interpolate(const ref_surface *surface, const float corn
     return ref_dot3(surface->weight, corners) * surface->r;
 }
 
+/* R134, R168: whether a body absorbs light. */
+static inline int ref_absorbs(const e3d_physical *p)
+{
+    return p->thickness != 0.0f && (p->absorption[0] != 0.0f || p->absorption[1] != 0.0f || p->absorption[2] != 0.0f);
+}
+
 /* surface.c */
 /* With multisampling, R105 applies: the surface is found at the pixel's centre, or at the sample if the piece's corners don't
  * allow that. */
@@ -147,8 +153,7 @@ void ref_bend_normal(const ref_stretch *stretch, const float normal[3], const fl
 /* R133: whether a piece lets light pass. */
 int ref_transmits(const e3d_frame *frame, const ref_piece *piece);
 float ref_transmitting_alpha(const e3d_material *material, float alpha);
-/* R134: whether a body absorbs light. */
-int ref_absorbs(const e3d_physical *p);
+/* R134 */
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 /* R135: blends a fragment that transmits over a sample. */
 void ref_lay_transmitting(const float color[3], float alpha, const float transmittance[3], float under[3], float *under_alpha);

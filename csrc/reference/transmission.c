@@ -22,11 +22,6 @@ float ref_transmitting_alpha(const e3d_material *material, float alpha)
     return material->alpha_mode == E3D_ALPHA_OPAQUE || alpha >= material->alpha_cutoff ? 1.0f : 0.0f;
 }
 
-int ref_absorbs(const e3d_physical *p)
-{
-    return p->thickness != 0.0f && (p->absorption[0] != 0.0f || p->absorption[1] != 0.0f || p->absorption[2] != 0.0f);
-}
-
 /* R134 */
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {

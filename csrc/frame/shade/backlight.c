@@ -7,9 +7,10 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
+#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 #include "frame/shade/backlight.h"
-#include "frame/shade/steps.h"
+#include "frame/shade/receivers.h"
 #include "frame/shade/texture_slots.h"
 
 static void negate(float *lanes, int count)
@@ -57,7 +58,7 @@ void e3d_find_backlight(const e3d_steps *s)
         enter(memory);
     }
     if (is_exact)
-        pass->kernels->exact_shadows(batch, &pass->view->lighting, pass->casters, &memory->receivers);
+        e3d_hide_lights(s);
     pass->kernels->light(batch, &lighting, 0.0f);
     if (is_body)
         memcpy(batch->position, position, sizeof position);

@@ -29,7 +29,9 @@ extern "C" {
     X(E3D_SLOT_THICKNESS, thickness_texture) /* G */ \
     X(E3D_SLOT_ANISOTROPY, anisotropy_texture) /* R and G: the direction, B: the strength */ \
     X(E3D_SLOT_IRIDESCENCE, iridescence_texture) /* R */ \
-    X(E3D_SLOT_IRIDESCENCE_THICKNESS, iridescence_thickness_texture) /* G: 0 is the least thickness, 1 the greatest */
+    X(E3D_SLOT_IRIDESCENCE_THICKNESS, iridescence_thickness_texture) /* G: 0 is the least thickness, 1 the greatest */ \
+    X(E3D_SLOT_DIFFUSE_TRANSMISSION, diffuse_transmission_texture) /* A */ \
+    X(E3D_SLOT_DIFFUSE_TRANSMISSION_COLOR, diffuse_transmission_color_texture)
 typedef enum e3d_texture_slot { E3D_EACH_TEXTURE_SLOT(E3D_ENUMERATOR) E3D_TEXTURE_SLOTS } e3d_texture_slot;
 
 /* A texture in a slot, and the coordinates at which it is read. */
@@ -52,6 +54,7 @@ typedef struct e3d_physical {
     float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
     float sheen_color[3], sheen_roughness;
     float transmission, thickness;
+    float diffuse_transmission, diffuse_transmission_color[3]; /* the share of scattered light that passes; its colour */
     float ior, dispersion;     /* the index of refraction, 1 or more, and how much that differs between colours (R164) */
     float absorption[3];       /* the base-2 logarithm of the share of light that is left after a world unit of thickness */
     float anisotropy, anisotropy_turn[2]; /* strength, 0 .. 1; cosine and sine of the angle from the tangent */

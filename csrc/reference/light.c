@@ -1,6 +1,6 @@
 /* Light: the Blinn-Phong sum over the lights, in their order.
  * In: a surface, the frame's lights. Out: its linear colour, not yet clamped.
- * Rules: R31, R54, R90, R130, R154, and the attenuations there. A light that is out of range adds nothing at all. */
+ * Rules: R31, R54, R90, R130, R154, R169, and the attenuations there. A light that is out of range adds nothing at all. */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
@@ -89,12 +89,10 @@ void ref_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
         out[c] = out[c] + more[c];
 }
 
-void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
+/* R31: E before it is clamped, and S; specular_sum: NULL where nothing shines. */
+static void add_lights(const e3d_frame *frame, const ref_surface *surface, float diffuse_sum[3], float *specular_sum)
 {
     const e3d_material *material = surface->piece->primitive.material;
-    const float *specular = material->specular;
-    int shiny = specular[0] != 0.0f || specular[1] != 0.0f || specular[2] != 0.0f;
-    float diffuse_sum[3], specular_sum[3] = {0.0f, 0.0f, 0.0f};
     ref_irradiance(frame, surface->world_normal, diffuse_sum);
     for (int c = 0; c < 3; c++)
         diffuse_sum[c] = diffuse_sum[c] * surface->visibility;
@@ -108,17 +106,43 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
         if (cosine > 0.0f && light->shadow.kind != E3D_SHADOW_NONE)
             attenuation = attenuation * ref_light_reached(frame, n, surface, l);
         float e = attenuation * cosine;
-        float k = shiny && cosine > 0.0f ? highlight(frame, surface, l, material->shininess) : 0.0f;
+        float k = specular_sum && cosine > 0.0f ? highlight(frame, surface, l, material->shininess) : 0.0f;
         for (int c = 0; c < 3; c++) {
             float shown = light->color[c] * E3D_OVER_PI; /* R154 */
             diffuse_sum[c] = diffuse_sum[c] + shown * e;
-            specular_sum[c] = specular_sum[c] + shown * (attenuation * k);
+            if (specular_sum)
+                specular_sum[c] = specular_sum[c] + shown * (attenuation * k);
         }
     }
+}
+
+void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    const float *specular = surface->piece->primitive.material->specular;
+    int shiny = specular[0] != 0.0f || specular[1] != 0.0f || specular[2] != 0.0f;
+    float diffuse_sum[3], specular_sum[3] = {0.0f, 0.0f, 0.0f};
+    add_lights(frame, surface, diffuse_sum, shiny ? specular_sum : NULL);
     for (int c = 0; c < 3; c++) {
         float lit = surface->albedo[c] * ref_clamp(diffuse_sum[c], frame->light_clamp[0], frame->light_clamp[1]);
         out[c] = shiny ? (lit + specular[c] * specular_sum[c]) + surface->emissive[c]
                        : lit + surface->emissive[c];
         out[c] = out[c] * frame->exposure;
     }
+}
+
+void ref_backlight(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    ref_surface turned = *surface;
+    turned.visibility = 1.0f;
+    for (int c = 0; c < 3; c++) {
+        turned.world_normal[c] = -surface->world_normal[c];
+        turned.shading_normal[c] = -surface->shading_normal[c];
+        for (int k = 0; k < 3; k++)
+            turned.corner_normal[k][c] = -surface->corner_normal[k][c];
+        if (surface->piece->primitive.material->physical.thickness != 0.0f)
+            turned.lit_position[c] = surface->lit_position[c] - surface->shading_normal[c] * surface->physical.body;
+    }
+    add_lights(frame, &turned, out, NULL);
+    for (int c = 0; c < 3; c++)
+        out[c] = ref_clamp(out[c], 0.0f, INFINITY);
 }

@@ -2,7 +2,7 @@
  * In: a surface with the values of its textures; the frame's lights, ambient light and environment. Out: its linear colour,
  * not yet clamped.
  * Rules: R49 (the material at a sample), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
- * R56 and R57 (sums), R211 (mirrors).
+ * R56 and R57 (sums), R168 (diffuse transmission), R211 (mirrors).
  * Sources: glTF 2.0, appendix B; Walter et al. 2007 (GGX); Heitz 2014 (Smith); Schlick 1994; Estevez and Kulla 2017 (sheen);
  * Fdez-Aguera 2019 (multiple scattering). */
 #include "reference/arithmetic.h"
@@ -35,6 +35,8 @@ typedef struct sums {
 
 static int is_anisotropic(const ref_surface *s) { return s->piece->primitive.material->physical.anisotropy != 0.0f; }
 static int is_iridescent(const ref_surface *s) { return s->piece->primitive.material->physical.iridescence != 0.0f; }
+
+static int is_translucent(const ref_surface *s) { return s->piece->primitive.material->physical.diffuse_transmission != 0.0f; }
 
 /* R49 and R193 */
 static lobe make_lobe(const float normal[3], const float view[3], float roughness, float wide)
@@ -93,6 +95,8 @@ static sample find_sample(const e3d_frame *frame, const ref_surface *s)
     for (int c = 0; c < 3; c++) {
         out.f0[c] = p->reflectance[c] + (s->albedo[c] - p->reflectance[c]) * m;
         out.diffuse[c] = (s->albedo[c] * (1.0f - m)) * E3D_OVER_PI;
+        if (is_translucent(s)) /* R168 */
+            out.diffuse[c] = out.diffuse[c] * (1.0f - p->diffuse_transmission);
         if (s->piece->primitive.material->physical.transmission != 0.0f) /* R134 */
             out.diffuse[c] = out.diffuse[c] * (1.0f - p->transmission);
     }
@@ -224,8 +228,20 @@ static scattering scatter(float f0, float f90, float a, float b)
     return (scattering){x, x * y, 1.0f - rest * y};
 }
 
-/* R55 */
-static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sample *at, const float irradiance[3], float out[3])
+/* R168: turns the light on the other side into what of it shows on this side; reflected: x + z. */
+static void let_through(const ref_surface *s, int c, float reflected, float light[3])
+{
+    const ref_physical *p = &s->physical;
+    const e3d_physical *m = &s->piece->primitive.material->physical;
+    float rest = m->transmission != 0.0f ? 1.0f - p->transmission : 1.0f;
+    light[c] = ((light[c] * (p->passing[c] * (1.0f - reflected))) * (p->diffuse_transmission * rest)) * (1.0f - p->metallic);
+    if (ref_absorbs(m))
+        light[c] = light[c] * ref_exp2(p->body * m->absorption[c]);
+}
+
+/* R55; through: in, H of R169, and out, B of R168; used if the surface is translucent. */
+static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sample *at, const float irradiance[3], float through[3],
+                          float out[3])
 {
     const ref_physical *p = &s->physical;
     float radiance[3], a = ref_albedo(E3D_DFG_A, at->base.roughness, at->base.nv), b = ref_albedo(E3D_DFG_B, at->base.roughness, at->base.nv);
@@ -244,6 +260,10 @@ static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sa
         scattering metal = scatter(metal_f0[c], 1.0f, a, b), other = scatter(other_f0[c], p->specular, a, b);
         float r = 1.0f / (metal.q * other.q), zt = (metal.twice * (r * other.q)) * rest, zd = (other.twice * (r * metal.q)) * rest;
         float t = radiance[c] * metal.once + irradiance[c] * zt, below = albedo * (1.0f - (other.once + zd));
+        if (is_translucent(s)) {
+            below = below * (1.0f - p->diffuse_transmission);
+            let_through(s, c, other.once + zd, through);
+        }
         if (s->piece->primitive.material->physical.transmission != 0.0f) /* R134 */
             below = below * (1.0f - p->transmission);
         float d = (radiance[c] * other.once + irradiance[c] * zd) + irradiance[c] * below;
@@ -286,13 +306,18 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
     const e3d_material *material = surface->piece->primitive.material;
     sample at = find_sample(frame, surface);
     sums lights = {.direct = {0.0f}};
-    float irradiance[3], indirect[3];
+    float irradiance[3], indirect[3], through[3];
     for (int32_t n = 0; n < frame->light_count; n++)
         add_light(frame, n, surface, &at, &lights);
     ref_irradiance(frame, surface->world_normal, irradiance);
-    find_indirect(frame, surface, &at, irradiance, indirect);
-    for (int c = 0; c < 3; c++)
+    if (is_translucent(surface))
+        ref_backlight(frame, surface, through);
+    find_indirect(frame, surface, &at, irradiance, through, indirect);
+    for (int c = 0; c < 3; c++) {
         out[c] = lights.direct[c] + indirect[c] * occlusion_of(surface);
+        if (is_translucent(surface))
+            out[c] = out[c] + through[c];
+    }
     if (has_sheen(material))
         add_sheen(surface, &at, irradiance, &lights, out);
     for (int c = 0; c < 3; c++)

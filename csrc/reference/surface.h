@@ -23,6 +23,7 @@ typedef struct ref_physical {
     float sheen[3], sheen_roughness;
     float transmission, depth; /* depth: the distance in world units over which light is absorbed (R134) */
     float scale;               /* the world units of a thickness of 1, 0 on back faces (R134) */
+    float diffuse_transmission, passing[3], body; /* D and P of R168, and its depth */
     ref_stretch stretch;       /* used if the material has anisotropy */
     float iridescence, film_thickness;
 } ref_physical;
@@ -58,6 +59,12 @@ typedef struct ref_surface {
 static inline float ref_interpolate(const ref_surface *surface, const float corners[3])
 {
     return ref_dot3(surface->weight, corners) * surface->r;
+}
+
+/* R134, R168: whether a body absorbs light. */
+static inline int ref_absorbs(const e3d_physical *p)
+{
+    return p->thickness != 0.0f && (p->absorption[0] != 0.0f || p->absorption[1] != 0.0f || p->absorption[2] != 0.0f);
 }
 
 /* surface.c */
@@ -99,6 +106,8 @@ void ref_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
  * is out of range. */
 int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation);
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+/* R169: the light that a white surface would show on the other side. */
+void ref_backlight(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
 /* shadow.c */

@@ -198,7 +198,7 @@ static float scale_below(const ref_surface *surface)
     float square[3];
     for (int r = 0; r < 3; r++)
         square[r] = (w[r][0] * w[r][0] + w[r][1] * w[r][1]) + w[r][2] * w[r][2];
-    return surface->piece->front ? sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD) : 0.0f;
+    return sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD);
 }
 
 static void find_physical(const ref_scene *scene, const e3d_material *m, ref_surface *s)
@@ -224,8 +224,12 @@ static void find_physical(const ref_scene *scene, const e3d_material *m, ref_sur
     find_iridescence(m, s, out);
     if (physical->anisotropy != 0.0f)
         find_stretch(m, s, out);
-    out->scale = scale_below(s);
-    out->depth = multiplied(&m->thickness_texture, s, 1, physical->thickness) * out->scale;
+    float scale = scale_below(s), thickness = multiplied(&m->thickness_texture, s, 1, physical->thickness);
+    out->scale = s->piece->front ? scale : 0.0f;
+    out->depth = thickness * out->scale;
+    out->diffuse_transmission = multiplied(&m->diffuse_transmission_texture, s, 3, physical->diffuse_transmission);
+    multiply_three(&m->diffuse_transmission_color_texture, s, physical->diffuse_transmission_color, out->passing);
+    out->body = thickness * scale;
 }
 
 void ref_find_textures(const ref_scene *scene, ref_surface *surface)

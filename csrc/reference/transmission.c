@@ -22,11 +22,6 @@ float ref_transmitting_alpha(const e3d_material *material, float alpha)
     return material->alpha_mode == E3D_ALPHA_OPAQUE || alpha >= material->alpha_cutoff ? 1.0f : 0.0f;
 }
 
-static int absorbs(const e3d_physical *p)
-{
-    return p->thickness != 0.0f && (p->absorption[0] != 0.0f || p->absorption[1] != 0.0f || p->absorption[2] != 0.0f);
-}
-
 /* R134 */
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
@@ -35,7 +30,7 @@ void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float
     ref_direction_to_eye(frame, surface, view);
     ref_light_behind(surface, view, behind);
     for (int c = 0; c < 3; c++) {
-        if (absorbs(p))
+        if (ref_absorbs(p))
             behind[c] = behind[c] * ref_exp2(surface->physical.depth * p->absorption[c]);
         out[c] = ref_clamp(behind[c], 0.0f, 1.0f);
     }

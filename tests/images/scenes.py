@@ -18,6 +18,7 @@ from images import (  # noqa: F401
     scenes_shadows,
     scenes_textures,
     scenes_tone,
+    scenes_translucent,
     scenes_views,
 )
 from images.picture import SCENES

@@ -86,6 +86,7 @@ MATERIALS = {
     "brushed": {"metallic": 1.0, "roughness": 0.3, "anisotropy": 0.8},
     "film": {"metallic": 0.0, "roughness": 0.2, "iridescence": 1.0},
     "glass": {"roughness": 0.1, "transmission": 1.0, "thickness": 0.5},
+    "leaf": {"roughness": 0.5, "diffuse_transmission": 0.7, "thickness": 0.1, "two_sided": True},
     "emissive": {"metallic": 0.0, "emissive": e3d.linear(3.0, 0, 0)},
 }
 

@@ -154,6 +154,24 @@ def test_radiance_of_layers(backend):
                     assert (frame.radiance == layers(base, *alphas[1:])).all()
 
 
+@pytest.mark.parametrize("wireframe", [None, "only", "overlay"])
+@pytest.mark.parametrize("backend", e3d.backends())
+def test_a_layer_that_is_not_there_leaves_every_bit(backend, wireframe):
+    """The sign of a zero, too: 0 times a colour would add +0 to -0."""
+    for alpha in (0.0, 1e-9):
+        scene, camera = panes(1, alpha)
+        for node, color in zip(scene.nodes, ((-0.0, 0.5, -0.0), (0.0, 0.25, 1.0)), strict=True):
+            material = node.object.materials[0]
+            material.color = e3d.linear(*color, material.alpha)
+        for samples in (1, 4):
+            with Renderer((20, 12), backend=backend, samples=samples) as renderer:
+                frame = renderer.render(
+                    scene, camera, outputs=("radiance",), mode="unlit", wireframe=wireframe
+                )
+            signs = np.signbit(frame.radiance[6, 10])
+            assert (signs == (True, False, True)).all(), (alpha, samples)
+
+
 def test_radiance_is_what_shows():
     """Dim scenes show it, layer by layer, whatever lets light through."""
     for scene in (seen_through(BLACK), behind_glass(BLACK)):

@@ -349,6 +349,7 @@ GLTF = {
         for name, part in {
             "KHR_materials_anisotropy": {"anisotropyStrength": 1},
             "KHR_materials_clearcoat": {"clearcoatFactor": 1},
+            "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1},
             "KHR_materials_emissive_strength": {"emissiveStrength": 2},
             "KHR_materials_ior": {"ior": 2},
             "KHR_materials_iridescence": {"iridescenceFactor": 1},

@@ -334,6 +334,29 @@ def test_glass_is_read_without_a_warning(write):
     assert (material.transmission, material.thickness, material.dispersion) == (1, 2, 0.4)
 
 
+def test_diffuse_transmission_is_read_without_a_warning(write):
+    tree = triangle_tree()
+    image = np.full((2, 2, 4), 128, np.uint8)
+    tree["images"] = [{"uri": data_uri(png(image), "image/png")}]
+    tree["textures"] = [{"source": 0}]
+    leaf = {
+        "diffuseTransmissionFactor": 0.25,
+        "diffuseTransmissionTexture": {"index": 0},
+        "diffuseTransmissionColorFactor": [0.5, 1, 0.25],
+        "diffuseTransmissionColorTexture": {"index": 0, "texCoord": 1},
+    }
+    tree["materials"] = [{"extensions": {"KHR_materials_diffuse_transmission": leaf}}]
+    tree["meshes"][0]["primitives"][0]["material"] = 0
+    tree["extensionsUsed"] = tree["extensionsRequired"] = ["KHR_materials_diffuse_transmission"]
+    document = load_document(write("a.gltf", json.dumps(tree)))
+    assert document.warnings == []
+    material = document.objects[0].mesh.materials[0]
+    assert material.diffuse_transmission == 0.25
+    assert material.diffuse_transmission_color == linear(0.5, 1, 0.25)
+    assert material.diffuse_transmission_texture.pixels[0, 0, 3] == 128
+    assert material.diffuse_transmission_color_texture.uv_set == 1
+
+
 def test_extensions_of_materials_count_listed_or_not(write):
     tree = triangle_tree()
     coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5}}

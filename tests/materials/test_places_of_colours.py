@@ -88,6 +88,7 @@ PHYSICAL = {
         ("sheen_color", {"sheen_roughness": 0.4}),
         ("specular_color", {"ior": 1.6}),
         ("attenuation_color", GLASS),
+        ("diffuse_transmission_color", {"diffuse_transmission": 0.5}),
     )
 }
 #: Each place that takes a colour.

@@ -206,7 +206,7 @@ def test_every_pointer_plays_and_is_written_again(tmp_path):
     "pointer",
     [
         "/materials/0/pbrMetallicRoughness/shine",
-        "/materials/0/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor",
+        "/materials/0/extensions/EXT_materials_subsurface/subsurfaceFactor",
         "/cameras/0/perspective/aspectRatio",
         "/nodes/0/matrix",
         "/extensions/EXT_lights_ies/lights/0/color",

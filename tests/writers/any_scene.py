@@ -37,6 +37,8 @@ MATERIALS = {
     "sheen_roughness": lambda r: r.random(),
     "transmission": lambda r: r.random(),
     "thickness": lambda r: r.random(),
+    "diffuse_transmission": lambda r: r.random(),
+    "diffuse_transmission_color": lambda r: color(r),
     "dispersion": lambda r: pick(r, 0.0, 0.7, 20.0),
     "attenuation_color": lambda r: color(r),
     "attenuation_distance": lambda r: pick(r, math.inf, 2.0, 0.1),

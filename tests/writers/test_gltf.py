@@ -149,6 +149,7 @@ def test_a_scene_of_our_own_comes_back(tmp_path):
         alpha_mode="blend",
         transmission=0.75, thickness=2.0, attenuation_distance=3.0, ior=1.25, two_sided=True,
         dispersion=0.5,
+        diffuse_transmission=0.5, diffuse_transmission_color=e3d.linear(0.5, 1.0, 0.25),
         anisotropy=0.5, anisotropy_rotation=1.5, iridescence=0.5, iridescence_ior=1.75,
         iridescence_thickness_minimum=50.0, iridescence_thickness_maximum=800.0,
         extras={"kind": "cup"},

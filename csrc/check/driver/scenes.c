@@ -412,6 +412,20 @@ static void add_ambient(scene *s, random_stream *r)
         s->frame.ambient_visibility = random_floats(s, r, s->frame.width * s->frame.height, 0.0f, 1.0f);
 }
 
+/* Light passes through some physical materials that scatter it. The stream goes on as if there were none. */
+static void add_translucency(scene *s, const random_stream *stream)
+{
+    random_stream own = *stream, *r = &own;
+    for (int k = 0; k < SCENE_MAX_MATERIALS && random_once_in(r, 2); k++) {
+        e3d_physical *p = &s->materials[k].physical;
+        p->diffuse_transmission = random_once_in(r, 6) ? hostile_float(r) : random_float(r, 0.0f, 1.0f);
+        for (int c = 0; c < 3; c++)
+            p->diffuse_transmission_color[c] = random_float(r, 0.0f, 1.0f);
+        if (random_once_in(r, 3))
+            p->thickness = random_once_in(r, 6) ? hostile_float(r) : random_float(r, 0.0f, 1.0f);
+    }
+}
+
 /* Random pictures for thick slices of space, which hold some of the faces. The stream goes on as if there were none. */
 static void add_mirrors(scene *s, const random_stream *stream)
 {
@@ -454,6 +468,7 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     add_ambient(s, r);
     add_apertures(s, r);
     add_mirrors(s, r);
+    add_translucency(s, r);
     return status;
 }
 

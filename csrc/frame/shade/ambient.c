@@ -8,14 +8,11 @@
 #include "frame/pass/view.h"
 #include "frame/shade/ambient.h"
 
-/* The length of the batch in whole vectors; beyond its end the last sample is repeated. */
-static int padded(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) / E3D_PAD * E3D_PAD; }
-
 /* Inlined for each `shift`, so that the compiler sees a constant. */
 static ALWAYS_INLINE void find_shifted(const e3d_frame *frame, const e3d_tile *tile, int shift, e3d_batch *batch)
 {
     const float *first = frame->ambient_visibility + (size_t)(tile->y >> shift) * (size_t)frame->width + (tile->x >> shift);
-    for (int i = 0; i < padded(batch); i++) {
+    for (int i = 0; i < e3d_padded_count(batch); i++) {
         int32_t x = batch->sample[i] & (E3D_TILE - 1), y = batch->sample[i] >> E3D_TILE_SHIFT;
         batch->visibility[i] = first[(intptr_t)(y >> shift) * frame->width + (x >> shift)];
     }
@@ -39,6 +36,6 @@ void e3d_find_visibility(const e3d_prepared *pass, const e3d_shade_out *out)
     if (out->sink == E3D_SINK_PIXELS || out->sink == E3D_SINK_SOLID)
         find(pass->frame, &out->pixels->tile, batch);
     else
-        for (int i = 0; i < padded(batch); i++)
+        for (int i = 0; i < e3d_padded_count(batch); i++)
             batch->visibility[i] = 1.0f;
 }

@@ -90,6 +90,7 @@ typedef struct e3d_bucket {
     int8_t mapped;
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int8_t transmits, bends;                /* R133, R160 */
+    int8_t translucent;                     /* R168 */
     int8_t mirrors;                         /* not 0: its faces may show mirrors (R210) */
     int8_t lit, hidden;                     /* not 0: light falls on it; its faces are left out by a wireframe */
     int32_t first, last; /* the chain of its visible primitives */

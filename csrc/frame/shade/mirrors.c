@@ -59,16 +59,13 @@ static void set_sample(e3d_mirror_batch *out, int i, float share, const float li
         out->light[k][i] = light[k];
 }
 
-/* The length of the batch in whole vectors; beyond its end the last sample is repeated. */
-static int padded(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) / E3D_PAD * E3D_PAD; }
-
 static void find_batch(const e3d_steps *s)
 {
     e3d_shade_memory *memory = s->out->memory;
     const e3d_batch *batch = &memory->batch;
     const e3d_tile *tile = &s->out->pixels->tile;
     const e3d_mirror *mirror = NULL;
-    for (int i = 0; i < padded(batch); i++) {
+    for (int i = 0; i < e3d_padded_count(batch); i++) {
         int32_t x = batch->sample[i] & (E3D_TILE - 1), y = batch->sample[i] >> E3D_TILE_SHIFT;
         if (!i || batch->surface[i] != batch->surface[i - 1])
             mirror = mirror_of(s->pass->frame, &memory->surfaces, batch->surface[i]);

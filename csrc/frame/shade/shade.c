@@ -9,6 +9,7 @@
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "frame/pass/prepared.h"
+#include "frame/shade/receivers.h"
 #include "frame/shade/runs.h"
 #include "frame/shade/shade.h"
 #include "frame/shade/steps.h"
@@ -92,17 +93,6 @@ static void shade_primitives(const e3d_steps *steps, int32_t first, int32_t end)
     shade_batch(steps);
 }
 
-/* R100 and R194 */
-static void find_receivers(const e3d_steps *s, e3d_shade_memory *memory)
-{
-    const e3d_visible_primitive *primitives = memory->primitives.data;
-    e3d_receivers *out = &memory->receivers;
-    out->is_smooth = s->wanted & E3D_WANT_WEIGHTS && e3d_has_smooth_normals(s->bucket);
-    for (int32_t n = 0; n < memory->surfaces.count && out->is_smooth; n++)
-        out->mesh[n] = primitives[memory->surfaces.primitive[n]].draw->mesh;
-    s->pass->kernels->receivers(&memory->surfaces, out);
-}
-
 static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d_bucket *bucket, const e3d_shade_out *out)
 {
     const e3d_steps s = e3d_choose_steps(in, bucket, out);
@@ -113,7 +103,7 @@ static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d
         if (s.wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(in->pass, tile, bucket, s.wanted, memory);
         if (e3d_receives_exact_shadows(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
-            find_receivers(&s, memory);
+            e3d_find_receivers(&s, memory);
         shade_primitives(&s, first, end);
     }
 }

@@ -11,10 +11,12 @@
 #include "frame/pass/view.h"
 #include "frame/shade/alpha_batch.h"
 #include "frame/shade/ambient.h"
+#include "frame/shade/backlight.h"
 #include "frame/shade/bend.h"
 #include "frame/shade/texture_slots.h"
 #include "frame/shade/mirrors.h"
 #include "frame/shade/modes.h"
+#include "frame/shade/receivers.h"
 #include "frame/shade/steps.h"
 #include "frame/shade/surface.h"
 #include "frame/shade/values.h"
@@ -54,11 +56,6 @@ static void put_outputs(const e3d_steps *s) { e3d_outputs_batch(s->in->store, s-
 /* ---- radiance ---- */
 
 static void find_visibility(const e3d_steps *s) { e3d_find_visibility(s->pass, s->out); }
-
-static void hide_lights(const e3d_steps *s)
-{
-    s->pass->kernels->exact_shadows(batch_of(s), &s->pass->view->lighting, s->pass->casters, &s->out->memory->receivers);
-}
 
 static void light(const e3d_steps *s)
 {
@@ -142,13 +139,6 @@ static void add(e3d_steps *s, int is_taken, e3d_shade_step step)
         s->step[s->count++] = step;
 }
 
-int e3d_receives_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucket)
-{
-    return e3d_plans(pass, E3D_PLAN_FINDS_EXACT_SHADOWS) && bucket->lit && !bucket->unshadowed;
-}
-
-int e3d_has_smooth_normals(const e3d_bucket *bucket) { return bucket->face && !bucket->flat; }
-
 static int finds_alphas(e3d_sink sink) { return sink == E3D_SINK_ALPHA_TEST || sink == E3D_SINK_A_BUFFER || sink == E3D_SINK_SAMPLES; }
 
 /* Whether the samples themselves show, and nothing behind them. */
@@ -173,7 +163,8 @@ static void add_radiance_steps(e3d_steps *s)
 {
     const e3d_bucket *bucket = s->bucket;
     add(s, bucket->lit, find_visibility);
-    add(s, e3d_receives_exact_shadows(s->pass, bucket), hide_lights);
+    add(s, bucket->translucent, e3d_find_backlight);
+    add(s, e3d_receives_exact_shadows(s->pass, bucket), e3d_hide_lights);
     add(s, bucket->mirrors, e3d_find_mirrors);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);

@@ -77,6 +77,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     g.transmits = g.face && e3d_transmits(frame, g.material);
     g.bends = g.transmits && e3d_plans(pass, E3D_PLAN_BENDS) && e3d_bends(g.material);
     g.lit = g.face && frame->mode == E3D_MODE_LIT && !g.material->is_unlit;
+    g.translucent = g.lit && g.material->is_physical && g.material->physical.diffuse_transmission != 0.0f;
     g.mirrors = g.lit && e3d_may_mirror(pass, g.material);
     g.hidden = g.face && frame->wireframe == E3D_WIRE_ONLY;
     g.by_vertex = mesh->colors_u8 || mesh->colors_f32;

@@ -37,6 +37,8 @@ static int absorbs(const e3d_physical *p) { return p->thickness != 0.0f && e3d_a
 static int is_anisotropic(const e3d_physical *p) { return p->anisotropy != 0.0f; }
 static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f; }
 
+int e3d_is_translucent_body(const e3d_bucket *bucket) { return bucket->translucent && bucket->material->physical.thickness != 0.0f; }
+
 /* Whether a slot's texture tells how far normals spread, and lobes want to know. */
 static int reads_spread(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot, const e3d_texture_use *use)
 {
@@ -70,7 +72,9 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
     case E3D_SLOT_SHEEN_COLOR:
     case E3D_SLOT_SHEEN_ROUGHNESS: return lit && has_sheen(p);
     case E3D_SLOT_TRANSMISSION: return lit && bucket->transmits;
-    case E3D_SLOT_THICKNESS: return lit && bucket->transmits && (absorbs(p) || bucket->bends);
+    case E3D_SLOT_THICKNESS: return lit && ((bucket->transmits && (absorbs(p) || bucket->bends)) || e3d_is_translucent_body(bucket));
+    case E3D_SLOT_DIFFUSE_TRANSMISSION:
+    case E3D_SLOT_DIFFUSE_TRANSMISSION_COLOR: return lit && bucket->translucent;
     case E3D_SLOT_ANISOTROPY: return lit && is_anisotropic(p);
     case E3D_SLOT_IRIDESCENCE:
     case E3D_SLOT_IRIDESCENCE_THICKNESS: return lit && is_iridescent(p);
@@ -260,18 +264,29 @@ static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *pri
     return sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD);
 }
 
-/* R134: finds how many world units a thickness of 1 has at each sample. */
-static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory, float *out)
+/* R134: finds how many world units a thickness of 1 has at each sample; spared: 0 at back faces. */
+static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory, int spared, float *out)
 {
     const e3d_visible_primitive *primitives = memory->primitives.data;
     const e3d_batch *batch = &memory->batch;
     float depth = 0.0f;
-    for (int i = 0; i < batch->count; i++) {
+    for (int i = 0; i < e3d_padded_count(batch); i++) {
         int32_t n = batch->surface[i];
         if (!i || n != batch->surface[i - 1])
-            depth = memory->surfaces.back[n] ? 0.0f : scale_of(pass, &primitives[memory->surfaces.primitive[n]]);
+            depth = spared && memory->surfaces.back[n] ? 0.0f : scale_of(pass, &primitives[memory->surfaces.primitive[n]]);
         out[i] = depth;
     }
+}
+
+void e3d_find_bodies(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+{
+    const e3d_varying thickness = e3d_varying_of(&memory->textures, E3D_SLOT_THICKNESS, 1, bucket->material->physical.thickness);
+    float *body = memory->textures.batch.body;
+    e3d_lane_array scale;
+    find_depths(pass, memory, 0, scale);
+    pass->kernels->varying(&thickness, memory->batch.count, body);
+    for (int i = 0; i < e3d_padded_count(&memory->batch); i++)
+        body[i] = body[i] * scale[i];
 }
 
 static e3d_anisotropy_texture stretch_of(const e3d_texture_memory *memory, const e3d_physical *p)
@@ -291,7 +306,7 @@ static void add_rare(const e3d_texture_memory *textures, const e3d_physical *p, 
     brdf->iridescence_thickness = e3d_varying_of(textures, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
     brdf->iridescence_thickness_least = least;
     brdf->iridescence_ior = p->iridescence_ior;
-    brdf->is_rare = brdf->transmits || brdf->anisotropic || brdf->iridescent;
+    brdf->is_rare = brdf->transmits || brdf->translucent || brdf->anisotropic || brdf->iridescent;
 }
 
 /* R193: by how much the levels of a normal texture widen a lobe. */
@@ -322,7 +337,8 @@ static e3d_brdf brdf_of(const e3d_prepared *pass, const e3d_bucket *bucket, cons
         .coat_spread = spread_of(textures, E3D_SLOT_CLEARCOAT_NORMAL, p->clearcoat_normal_scale),
         .occlusion_strength = p->occlusion_strength,
         .transmits = bucket->transmits,
-        .absorbs = bucket->transmits && absorbs(p),
+        .translucent = bucket->translucent,
+        .absorbs = (bucket->transmits || bucket->translucent) && absorbs(p),
         .has_coat = is_coated(p),
         .has_sheen = has_sheen(p),
         .is_grey = textures->read.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
@@ -351,7 +367,7 @@ void e3d_share_mirrors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_s
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
     const e3d_brdf brdf = brdf_of(pass, bucket, memory);
-    if (brdf.absorbs || bucket->bends)
-        find_depths(pass, memory, memory->textures.batch.depth);
+    if (bucket->transmits && (brdf.absorbs || bucket->bends))
+        find_depths(pass, memory, 1, memory->textures.batch.depth);
     pass->kernels->physical(&memory->batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->textures.batch);
 }

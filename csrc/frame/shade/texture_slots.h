@@ -7,9 +7,11 @@
 #include "frame/pass/prepared.h"
 #include "frame/shade/job.h"
 
-/* Whether a material's faces are shaded with e3d_read_textures, and not just with a base colour. */
 /* R193: whether the lobes of a bucket are as wide as the normals in a pixel ask for. */
 int e3d_widens_lobes(const e3d_prepared *pass, const e3d_bucket *bucket);
+/* R168: whether a bucket's surfaces are translucent, and bound bodies that have a thickness. */
+int e3d_is_translucent_body(const e3d_bucket *bucket);
+/* Whether a material's faces are shaded with e3d_read_textures, and not just with a base colour. */
 int e3d_needs_textures(const e3d_prepared *pass, const e3d_material *material);
 /* Whether a texture counts on the faces of a bucket (R45). */
 int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use);
@@ -26,6 +28,8 @@ void e3d_find_texture_batch(const e3d_prepared *pass, const e3d_bucket *bucket, 
 e3d_varying e3d_varying_of(const e3d_texture_memory *memory, e3d_texture_slot slot, int channel, float factor);
 /* The alpha of a batch whose texels are found, without the vertices' and the instance's factors. */
 e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_texture_memory *textures);
+/* R169: finds the depths of bodies. */
+void e3d_find_bodies(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory);
 /* Finds how much a physically based material reflects of what mirrors show; color is its base colour. */
 void e3d_share_mirrors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory);
 /* Finds the colours of a physically based material. */

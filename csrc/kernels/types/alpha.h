@@ -83,7 +83,9 @@ static inline void e3d_lay_light(const e3d_alpha_layers *layers, const uint32_t 
     float *over = layers->lit[y / axis * E3D_TILE + x / axis];
     for (int i = 0; i < count; i++) {
         const float *light = layers->light[order[i]], *through = layers->through ? layers->through[order[i]] : NULL;
-        float a = light[3] >= E3D_LEAST_ALPHA ? light[3] : 0.0f, rest = 1.0f - a;
+        float a = light[3], rest = 1.0f - a;
+        if (!(a >= E3D_LEAST_ALPHA)) /* it isn't laid at all: 0 times it would make +0 of -0 */
+            continue;
         for (int k = 0; k < 3; k++)
             over[k] = light[k] * a + over[k] * (through && through[3] != 0.0f ? rest + a * through[k] : rest);
     }

@@ -97,6 +97,9 @@ typedef struct e3d_batch {
     int finest;                            /* not 0: textures are read at level 0, once (R190) */
 } e3d_batch;
 
+/* The length of a batch in whole vectors; beyond its end the last sample is repeated. */
+static inline int e3d_padded_count(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) / E3D_PAD * E3D_PAD; }
+
 /* The samples of a batch in mirrors. */
 typedef struct e3d_mirror_batch {
     e3d_lane_array share, rest;  /* m of R210, and 1 - m */

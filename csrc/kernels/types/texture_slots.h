@@ -53,7 +53,8 @@ typedef struct e3d_texture_batch {
     e3d_lane_array coat_normal[3];
     e3d_lane_array metallic_roughness[2], emissive[3]; /* for outputs */
     e3d_lane_array direct[3], coat[3], fuzz[3];      /* the sums over lights so far, if there are many lights */
-    e3d_lane_array depth;                            /* the world units of a thickness of 1 */
+    e3d_lane_array depth;                            /* the world units of a thickness of 1, 0 on back faces */
+    e3d_lane_array body;                             /* the same on both sides, times the thickness (R168) */
     e3d_lane_array through[3];                       /* the share of the light behind that is seen (R134) */
 } e3d_texture_batch;
 
@@ -87,12 +88,14 @@ typedef struct e3d_anisotropy_texture {
     X(E3D_SLOT_SHEEN_ROUGHNESS, 3, sheen_roughness, m->physical.sheen_roughness) \
     X(E3D_SLOT_TRANSMISSION, 0, transmission, m->physical.transmission) \
     X(E3D_SLOT_THICKNESS, 1, thickness, m->physical.thickness) \
-    X(E3D_SLOT_IRIDESCENCE, 0, iridescence, m->physical.iridescence)
+    X(E3D_SLOT_IRIDESCENCE, 0, iridescence, m->physical.iridescence) \
+    X(E3D_SLOT_DIFFUSE_TRANSMISSION, 3, diffuse_transmission, m->physical.diffuse_transmission)
 /* The same for colours of three channels: X(slot, name, factors). */
 #define E3D_EACH_VARYING_COLOR(X) \
     X(E3D_SLOT_SPECULAR_COLOR, reflectance, m->physical.reflectance) \
     X(E3D_SLOT_EMISSIVE, emissive, m->emissive) \
-    X(E3D_SLOT_SHEEN_COLOR, sheen, m->physical.sheen_color)
+    X(E3D_SLOT_SHEEN_COLOR, sheen, m->physical.sheen_color) \
+    X(E3D_SLOT_DIFFUSE_TRANSMISSION_COLOR, passing, m->physical.diffuse_transmission_color)
 
 /* The numbers of a physically based material's BRDF on a batch (R46, R49). */
 typedef struct e3d_brdf {
@@ -108,13 +111,14 @@ typedef struct e3d_brdf {
     int coat_is_mapped;  /* the coat's normal is coat_normal; else it is shading_normal */
     float absorption[3]; /* the base-2 logarithm of the share of light that is left after a world unit */
     int transmits;       /* not 0: `through` is found */
-    int absorbs;         /* by `depth` */
+    int translucent;     /* not 0: light passes that is scattered; the batch's `energy` is what falls on the other side (R169) */
+    int absorbs;         /* by `depth`, and by `body` */
     int anisotropic, iridescent;
     e3d_anisotropy_texture stretch;
     e3d_varying iridescence_thickness; /* of the film, in nanometres, above the least */
     float iridescence_thickness_least, iridescence_ior;
     const float *unmirrored; /* NULL, or lanes: the share of what lies around that is reflected (R211) */
-    int is_rare;      /* it transmits, is anisotropic, iridescent or a mirror */
+    int is_rare;      /* it transmits, is translucent, anisotropic, iridescent or a mirror */
 } e3d_brdf;
 
 /* A batch of surfaces that bend. */

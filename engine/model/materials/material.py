@@ -216,6 +216,18 @@ class Material(ShownInNotebooks, Versioned):
         gltf="volume/attenuationDistance",
         doc="Infinite: nothing is absorbed.",
     )
+    diffuse_transmission: Number = Parameter(
+        SHARE,
+        default=0.0,
+        gltf="diffuse_transmission/diffuseTransmissionFactor",
+        doc="Share of the scattered light that leaves on the other side: of leaves, paper, wax.",
+    )
+    diffuse_transmission_color: ColorNumbers = Parameter(
+        COLOR,
+        default=(1, 1, 1),
+        gltf="diffuse_transmission/diffuseTransmissionColorFactor",
+        doc="Of the light that does; the base colour does not count there.",
+    )
     metallic_roughness_texture: TextureSlot = TextureSlot(
         default=None,
         is_color=False,
@@ -312,6 +324,18 @@ class Material(ShownInNotebooks, Versioned):
     )
     iridescence_thickness_texture: TextureSlot = TextureSlot(
         default=None, is_color=False, gltf="iridescence/iridescenceThicknessTexture", doc="G."
+    )
+    diffuse_transmission_texture: TextureSlot = TextureSlot(
+        default=None,
+        is_color=False,
+        gltf="diffuse_transmission/diffuseTransmissionTexture",
+        doc="Alpha.",
+    )
+    diffuse_transmission_color_texture: TextureSlot = TextureSlot(
+        default=None,
+        is_color=True,
+        gltf="diffuse_transmission/diffuseTransmissionColorTexture",
+        doc="RGB.",
     )
 
     if not TYPE_CHECKING:  # the parameters generate the constructor

@@ -1,4 +1,4 @@
-/* BRDF: physically based materials at the samples of a vector (R49, R134, R141, R193). */
+/* BRDF: physically based materials at the samples of a vector (R49, R134, R141, R168, R193). */
 #pragma once
 
 #include "base/always_inline.h"
@@ -32,6 +32,7 @@ typedef struct brdf_lanes {
     vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to `top`, to `f0` */
     vf32 sheen_power; /* 1 / alpha of the sheen */
     vf32 transmission, rest; /* rest: 1 - transmission (R134) */
+    vf32 passing, scattered; /* D of R168; scattered: 1 - D */
     stretch_lanes stretch;
     vf32 film_share, film[3], film_top; /* R141: what a film reflects of each channel, and the greatest of that without metal */
     vf32 other_f0[3], metal_f0[3];
@@ -139,6 +140,15 @@ static ALWAYS_INLINE void brdf_transmission(const e3d_brdf *brdf, int i, brdf_la
         at->diffuse[k] = v_mul(at->diffuse[k], at->rest);
 }
 
+/* R168: nor is light that passes scattered to this side. */
+static ALWAYS_INLINE void brdf_translucency(const e3d_brdf *brdf, int i, brdf_lanes *at)
+{
+    at->passing = varying_at(&brdf->diffuse_transmission, i);
+    at->scattered = v_sub(v_setf(1.0f), at->passing);
+    for (int k = 0; k < 3; k++)
+        at->diffuse[k] = v_mul(at->diffuse[k], at->scattered);
+}
+
 /* R141 */
 static inline void brdf_iridescence(const e3d_batch *batch, const e3d_brdf *brdf, int i, brdf_lanes *at)
 {
@@ -164,6 +174,8 @@ static ALWAYS_INLINE void brdf_rare(const e3d_batch *batch, const e3d_texture_ba
 {
     vf32 normal[3];
     load_three(batch->normal, i, normal);
+    if (brdf->translucent)
+        brdf_translucency(brdf, i, at);
     if (brdf->transmits)
         brdf_transmission(brdf, i, at);
     if (brdf->anisotropic)

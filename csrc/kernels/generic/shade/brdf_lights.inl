@@ -1,4 +1,4 @@
-/* Lights on physically based materials, and light from all around (R50-R55, R138). */
+/* Lights on physically based materials, and light from all around (R50-R55, R138, R168). */
 #pragma once
 
 #include "base/always_inline.h"
@@ -245,9 +245,17 @@ static ALWAYS_INLINE void around_find(const e3d_lighting *lighting, const enviro
     }
 }
 
-/* R55. through: the share of the light behind that passes (R134). */
+/* R168: what shows of the light on the other side; left: the share that is not reflected. */
+static ALWAYS_INLINE vf32 around_backlight(const e3d_batch *batch, const e3d_brdf *brdf, int k, int i, const brdf_lanes *at, vf32 left)
+{
+    vf32 one = v_setf(1.0f), share = brdf->transmits ? v_mul(at->passing, at->rest) : at->passing;
+    vf32 light = v_mul(v_loadf(batch->energy[k] + i), v_mul(varying_at(&brdf->passing[k], i), left));
+    return v_mul(v_mul(light, share), v_sub(one, at->metallic));
+}
+
+/* R55. through: the share of the light behind that passes (R134); passed: the light of R168, before it is absorbed. */
 static ALWAYS_INLINE void around_indirect(const e3d_batch *batch, const e3d_brdf *brdf, const e3d_brdf *rare, int i,
-                                          const brdf_lanes *at, const around_lanes *around, vf32 through[3], vf32 out[3])
+                                          const brdf_lanes *at, const around_lanes *around, vf32 through[3], vf32 passed[3], vf32 out[3])
 {
     const vf32 *radiance = around->radiance, *irradiance = around->irradiance;
     vf32 one = v_setf(1.0f), a = around->a, b = around->b, rest = v_sub(one, v_add(a, b)), specular = varying_at(&brdf->specular, i);
@@ -263,11 +271,15 @@ static ALWAYS_INLINE void around_indirect(const e3d_batch *batch, const e3d_brdf
         vf32 zt = v_mul(v_mul(metal.twice, v_mul(r, other.q)), rest), zd = v_mul(v_mul(other.twice, v_mul(r, metal.q)), rest);
         vf32 t = v_add(v_mul(radiance[k], metal.once), v_mul(irradiance[k], zt));
         vf32 d = v_add(v_mul(radiance[k], other.once), v_mul(irradiance[k], zd));
-        vf32 below = v_mul(albedo, v_sub(one, v_add(other.once, zd)));
-        if (rare && rare->transmits) {
+        vf32 left = v_sub(one, v_add(other.once, zd)), below = v_mul(albedo, left);
+        if (rare && rare->transmits)
             through[k] = v_mul(v_mul(below, at->transmission), v_sub(one, at->metallic));
-            below = v_mul(below, at->rest);
+        if (rare && rare->translucent) {
+            passed[k] = around_backlight(batch, brdf, k, i, at, left);
+            below = v_mul(below, at->scattered);
         }
+        if (rare && rare->transmits)
+            below = v_mul(below, at->rest);
         d = v_add(d, v_mul(irradiance[k], below));
         out[k] = v_add(d, v_mul(v_sub(t, d), at->metallic));
     }

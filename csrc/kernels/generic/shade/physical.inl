@@ -1,4 +1,4 @@
-/* physical: adds up all light on physically based materials, layer by layer (R56, R57, R134). */
+/* physical: adds up all light on physically based materials, layer by layer (R56, R57, R134, R168). */
 #pragma once
 
 #include "base/always_inline.h"
@@ -73,6 +73,17 @@ static ALWAYS_INLINE void brdf_through(const e3d_brdf *brdf, int has_coat, int h
     }
 }
 
+/* R168 */
+static ALWAYS_INLINE void brdf_pass(const e3d_brdf *brdf, const e3d_texture_batch *m, const vf32 passed[3], int i, vf32 color[3])
+{
+    for (int k = 0; k < 3; k++) {
+        vf32 left = passed[k];
+        if (brdf->absorbs)
+            left = v_mul(left, exp2_poly(v_mul(v_loadf(m->body + i), v_setf(brdf->absorption[k]))));
+        color[k] = v_add(color[k], left);
+    }
+}
+
 /* R46 and R129 */
 static ALWAYS_INLINE vf32 brdf_occlusion(const e3d_batch *batch, const e3d_brdf *brdf, const e3d_lighting *lighting, int i)
 {
@@ -87,12 +98,14 @@ static ALWAYS_INLINE void brdf_finish(const e3d_batch *batch, const e3d_brdf *br
                                       const environment_plan *plan, const e3d_lane_array *coat, int has_sheen, const e3d_brdf *rare,
                                       const brdf_lanes *at, const around_lanes *around, int i, e3d_texture_batch *m, vf32 color[3])
 {
-    vf32 indirect[3], through[3], normal[3], occlusion = brdf_occlusion(batch, brdf, lighting, i);
-    around_indirect(batch, brdf, rare, i, at, around, through, indirect);
+    vf32 indirect[3], through[3], passed[3], normal[3], occlusion = brdf_occlusion(batch, brdf, lighting, i);
+    around_indirect(batch, brdf, rare, i, at, around, through, passed, indirect);
     if (rare && rare->transmits)
         brdf_through(brdf, coat != NULL, has_sheen, at, i, through, m);
     for (int k = 0; k < 3; k++)
         color[k] = v_add(at->direct[k], v_mul(indirect[k], occlusion));
+    if (rare && rare->translucent)
+        brdf_pass(brdf, m, passed, i, color);
     if (has_sheen)
         brdf_sheen(brdf, at, around->irradiance, occlusion, i, color);
     for (int k = 0; k < 3; k++)

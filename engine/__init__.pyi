@@ -14,6 +14,7 @@ from . import loaders as loaders
 from . import motion as motion
 from . import navigation as navigation
 from . import notebook as notebook
+from . import plugins as plugins
 from . import primitives as primitives
 from . import rasterization as rasterization
 from . import resources as resources

@@ -25,6 +25,7 @@ __all__ = [
     "InvalidArgumentError",
     "MissingOutputError",
     "OutOfMemoryError",
+    "PluginError",
     "RendererBusyError",
     "SceneChangedError",
 ]
@@ -114,6 +115,10 @@ class DisplayError(Engine3DError, RuntimeError):
 
 class MissingOutputError(Engine3DError, AttributeError):
     """An output was read that the frame was not rendered with."""
+
+
+class PluginError(Engine3DError, RuntimeError):
+    """A package that extends engine3d cannot be imported, or breaks the contract of its group."""
 
 
 class SceneChangedError(Engine3DError, RuntimeError):

@@ -12,6 +12,8 @@ from typing import Any, Literal, TypeAlias, get_args
 
 from ..base.calls import hints_keywords, refuse_unknown
 from ..base.numbers import shown
+from ..base.plugins.open_choices import OpenChoices
+from ..base.plugins.registry import find_plugin
 from ..base.validation import choose, flag, not_negative
 from ..choices import Backdrop, ColorLike, LightSetup, LightShadow, LookName, ToneMapping
 from ..errors import InvalidArgumentError
@@ -20,6 +22,8 @@ from ..model.materials.colors import check_color
 from ..model.scene.gradients import Gradient
 
 LOOKS: tuple[LookName, ...] = get_args(LookName)
+#: These, and the looks of plug-ins.
+LOOK_CHOICES = OpenChoices("looks", LOOKS)
 #: Backgrounds in the colours of a theme.
 THEMED: tuple[str, ...] = ("auto", "dark", "light")
 _BACKDROPS = get_args(Backdrop)
@@ -137,8 +141,8 @@ class Look:
         return {"tone_mapping": self.tone_mapping, "ambient_occlusion": self.ambient_occlusion}
 
 
-#: What callers may give as a look.
-LookChoice: TypeAlias = LookName | Look
+#: What callers may give as a look; a str may also name a look that a package adds.
+LookChoice: TypeAlias = LookName | str | Look
 
 
 def check_look(value: LookChoice) -> Look:
@@ -147,13 +151,24 @@ def check_look(value: LookChoice) -> Look:
     Raises
     ------
     InvalidArgumentError
+    PluginError
+        The look of this name is a plug-in's, which is broken.
     """
     if isinstance(value, Look):
         return value
-    if not isinstance(value, str) or value not in LOOKS:
-        names = ", ".join(f'"{name}"' for name in LOOKS)
-        raise InvalidArgumentError(f"look must be {names} or a Look, not {shown(value)}")
-    return {"studio": _STUDIO, "plain": _PLAIN}[value]
+    if isinstance(value, str):
+        if value in _SHIPPED:
+            return _SHIPPED[value]
+        if (plugin := find_plugin("looks", value)) is not None:
+            look: Look = plugin.use()
+            return look
+    names = ", ".join(f'"{name}"' for name in LOOK_CHOICES)
+    raise InvalidArgumentError(f"look must be {names} or a Look, not {shown(value)}")
+
+
+def shipped_names() -> set[str]:
+    """Return the names of the looks that engine3d itself has."""
+    return set(LOOKS)
 
 
 def _background(value: Any) -> Any:
@@ -176,3 +191,4 @@ _PLAIN = Look(
     tone_mapping="none",
     ambient_occlusion=False,
 )
+_SHIPPED: dict[str, Look] = {"studio": _STUDIO, "plain": _PLAIN}

@@ -149,14 +149,14 @@ def view_document(
     scene = scene_from_document(document, variant)
     # glTF defines the visible sides per material; other files do not, or are often wrong.
     appearance: dict[str, Any] = {"cull": "back" if document.tree is not None else "auto"}
-    is_bare = document.scene is not None and is_lit(scene)
+    is_bare = document.is_scene and is_lit(scene)
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up=document.up,
         update=None if scene.animator is None else scene.animator.seek,
         themed=not is_bare,
-        is_scene=document.scene is not None,
+        is_scene=document.is_scene,
         appearance=appearance | (BARE if is_bare else {}),
         path=path,
         format=document.format,

@@ -21,6 +21,8 @@ from public.test_copies import COPIED, REFUSED
 import engine3d as e3d
 from engine3d import batch, datasets, events, loaders
 from engine3d.apps.datasets.writer import Note
+from engine3d.base.plugins.plugin import Plugin
+from engine3d.io.reading.sources import Source
 
 MODULES = ("", *e3d._MODULES)
 #: Classes that only the package makes, or that are data of its own without a check.
@@ -28,6 +30,7 @@ MADE_ELSEWHERE = {
     *("Frame", "Node", "NodeSelection", "Sheet", "World"),
     *("batch.Summary", "datasets.Sample"),
     *("loaders.CameraRecord", "loaders.Document", "loaders.LightRecord"),
+    *("plugins.Plugin", "plugins.PluginFile"),
     *(f"events.{name}" for name in events.__all__),
 }
 OBJ = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -82,6 +85,19 @@ def written():
     return Note("a", 0, ["color/a.png"], {"shapes": [], "objects": []})
 
 
+def plugin():
+    return Plugin("looks", "evening", lambda: e3d.Look.studio())
+
+
+def plugin_file():
+    return e3d.plugins.PluginFile(Source("there.obj", OBJ))
+
+
+def registered():
+    e3d.plugins.register("looks", "evening", e3d.Look.studio())
+    return "evening"
+
+
 def window():
     return e3d.Window((64, 48))
 
@@ -116,6 +132,8 @@ OWNERS: dict[str, Callable[[], Any]] = {
     "NavigationGrid": functools.cache(ground),
     "Node": lambda: scene().nodes[0],
     "NodeSelection": lambda: scene().select(),
+    "Plugin": plugin,
+    "PluginFile": plugin_file,
     "Renderer": lambda: e3d.Renderer(SIZE, threads=1),
     "Sample": sample,
     "Scene": lit_scene,
@@ -159,6 +177,13 @@ RIGHT: dict[str, Any] = {
     "Resources.load_mesh.path": "there.obj",
     "Resources.load_texture.path": "there.ppm",
     "RenderOptions.pixels_of.size": 1.0,
+    "plugins.PluginFile.open.name": "there.ppm",
+    "plugins.PluginFile.progress.fraction": 0.5,
+    "plugins.register.group": "looks",
+    "plugins.register.name": "evening",
+    "plugins.register.value": e3d.Look.studio(),
+    "plugins.unregister.group": "looks",
+    "plugins.unregister.name": registered,
     "Resources.share.thing": mesh,
     "NavigationGrid.thing": mesh,
     "Canvas.triangle.a": (1.0, 2.0),

@@ -3,7 +3,7 @@
 import engine3d as e3d
 
 #: Names of these modules are told from others by the module's name.
-OWN_NAMES = ("batch", "choices", "datasets", "events", "linalg", "loaders")
+OWN_NAMES = ("batch", "choices", "datasets", "events", "linalg", "loaders", "plugins")
 UNLIKE_OTHERS = tuple(module for module in e3d._MODULES if module not in OWN_NAMES)
 
 

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.plugins.discovery import leaving_out
+from ...base.plugins.participants import participants
 from ...errors import Engine3DError, Engine3DWarning, InvalidArgumentError
 from ...io.reading.linked_files import found_files
 from ...model.scene.cameras import Camera
@@ -25,10 +27,11 @@ from ...rendering.options import RenderOptions
 from ...stage.renderer import Renderer
 from ...version import __version__
 from ..datasets.generator import Generator
+from ..datasets.kinds import plugin_of
 from ..datasets.samples import Sample
-from ..datasets.writer import DatasetWriter
+from ..datasets.writer import Content, DatasetWriter
 from .cameras import camera_of
-from .file_digests import InputFiles
+from .file_digests import Inputs
 from .loading import LoadedFiles, loading, not_written_to
 from .plain import PlainWriter
 from .records import is_done, write_picture
@@ -57,6 +60,8 @@ class How(NamedTuple):
         Of the engine3d that asks: another one would draw other bytes.
     timeout : float or None
         Seconds that a picture may take where who draws cannot be ended (`limits`).
+    plugins : bool
+        Whether plug-ins count; a task may leave them out, too.
     """
 
     out: str
@@ -66,6 +71,7 @@ class How(NamedTuple):
     resume: bool
     version: str
     timeout: float | None = None
+    plugins: bool = True
 
 
 class Outcome(NamedTuple):
@@ -109,7 +115,8 @@ def draw_chunk(tasks: Sequence[Task], how: How) -> list[Outcome]:
             "might differ"
         )
     drawer = _drawer(how)
-    return [drawer.outcome(task, how) for task in tasks]
+    with leaving_out(not how.plugins):
+        return [drawer.outcome(task, how) for task in tasks]
 
 
 _kept = threading.local()
@@ -143,18 +150,19 @@ class Drawer:
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always", Engine3DWarning)
             error, drawn = None, False
+            inputs = Inputs(task.folder)
             try:
-                if not (how.resume and is_done(how.out, task, writer)):
-                    self._draw(task, how.out, writer)
-                    drawn = True
+                with leaving_out(not task.plugins), participants(inputs.note_plugin):
+                    if not (how.resume and is_done(how.out, task, writer)):
+                        self._draw(task, how.out, writer, inputs)
+                        drawn = True
             except Exception as problem:  # a fault of one picture must not affect others
                 error = _told(problem)
         texts = (str(one.message) for one in said if issubclass(one.category, Engine3DWarning))
         seconds = time.perf_counter() - start
         return Outcome(task.index, error, drawn, seconds, tuple(dict.fromkeys(texts)))
 
-    def _draw(self, task: Task, out: str, writer: DatasetWriter) -> None:
-        inputs = InputFiles(task.folder)
+    def _draw(self, task: Task, out: str, writer: DatasetWriter, inputs: Inputs) -> None:
         for path in task.inputs:
             inputs.note(task.path(path))
         look = task.look or default_look(task)
@@ -180,7 +188,7 @@ class Drawer:
             options,
             task.seed,
         )
-        files, note = writer.describe(sample)
+        files, note = _described(sample, writer)
         for end, data in said.files.items():
             path = writer.beside(sample, end)
             if path in files:
@@ -202,7 +210,7 @@ class Drawer:
         return why_blank(Sight(scene, camera, pose, tuple(task.size), look, drawing))
 
     def _draw_look(
-        self, task: Task, look: str, out: str, writer: DatasetWriter, inputs: InputFiles
+        self, task: Task, look: str, out: str, writer: DatasetWriter, inputs: Inputs
     ) -> None:
         """Draw a model as ``engine3d render`` does."""
         from .looks import draw_look
@@ -215,7 +223,7 @@ class Drawer:
         files = writer.files(task.name, frame)
         write_picture(out, task, task.key(writer), inputs, files, None, blank)
 
-    def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:
+    def _scene(self, task: Task, inputs: Inputs) -> tuple[Scene, Said]:
         """Return the scene of a task, and its script's result."""
         path, root = task.model, task.root_path
         scene = Scene() if path is None else self._files.scene(task.path(path), root)
@@ -243,6 +251,18 @@ class Drawer:
         elif renderer.size != tuple(task.size):
             renderer.resize(task.size)
         return renderer
+
+
+def _described(sample: Sample, writer: DatasetWriter) -> tuple[dict[str, Content], Any]:
+    """Return what a writer makes of a sample; errors name the plug-in if it is one's."""
+    plugin = plugin_of(writer)
+    if plugin is None:
+        files, note = writer.describe(sample)
+    else:
+        plugin.use()
+        with plugin.named_in_errors():
+            files, note = writer.describe(sample)
+    return dict(files), note
 
 
 def _told(error: Exception) -> str:

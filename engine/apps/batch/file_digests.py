@@ -1,4 +1,4 @@
-"""Digests of a picture's input files.
+"""What a picture was made from: the digests of its input files, and the plug-ins that took part.
 
 In: paths, as they are read. Out: a hash of each file's bytes, computed once until the file changes.
 """
@@ -10,12 +10,13 @@ import os
 
 from ...base.files.hashing import hash_of_file
 from ...base.files.stamps import FileStamp, file_stamp, was_written
+from ...base.plugins.plugin import Plugin
 
 _known: dict[str, tuple[FileStamp | None, str | None]] = {}
 
 
-class InputFiles:
-    """The input files of one picture.
+class Inputs:
+    """The input files of one picture, and the plug-ins that took part in it.
 
     Parameters
     ----------
@@ -26,12 +27,22 @@ class InputFiles:
     def __init__(self, folder: str) -> None:
         self._folder = os.path.realpath(folder)
         self.paths: list[str] = []
+        self._plugins: list[list[str]] = []
 
     def note(self, path: str | os.PathLike[str]) -> None:
         """Record a path before it is read."""
         path = os.path.realpath(path)
         digest_of(path)
         self.paths.append(path)
+
+    def note_plugin(self, plugin: Plugin) -> None:
+        """Record a plug-in that is used."""
+        if plugin.stamp not in self._plugins:
+            self._plugins.append(plugin.stamp)
+
+    def plugins(self) -> list[list[str]]:
+        """Return the stamps of the plug-ins."""
+        return sorted(self._plugins)
 
     def digests(self) -> dict[str, str | None]:
         """Return the hash of each file by relative path, None for missing files."""
@@ -40,7 +51,7 @@ class InputFiles:
 
 
 def are_as_before(folder: str, digests: dict[str, str | None]) -> bool:
-    """Return whether files still match the result of `InputFiles.digests`."""
+    """Return whether files still match the result of `Inputs.digests`."""
     return all(
         digest_of(os.path.normpath(os.path.join(os.path.realpath(folder), path))) == digest
         for path, digest in digests.items()

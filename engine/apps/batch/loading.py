@@ -16,6 +16,9 @@ from typing import Any, NamedTuple
 
 from ...base.calls import checks_types
 from ...base.files.atomic_write import checked_path
+from ...base.plugins.participants import participants
+from ...base.plugins.plugin import Plugin
+from ...base.plugins.registry import are_here
 from ...errors import warn
 from ...io.loaders import load_document
 from ...io.reading.documents import Document
@@ -25,7 +28,7 @@ from ...io.scenes.scene_loading import scene_from_document
 from ...model.geometry.mesh import Mesh
 from ...model.materials.textures import Texture
 from ...model.scene.scene import Scene
-from .file_digests import InputFiles, digest_of
+from .file_digests import Inputs, digest_of
 
 #: Number of files that a process keeps loaded.
 KEPT = 16
@@ -39,10 +42,13 @@ class Held(NamedTuple):
     thing : object
     files : dict of str to str
         The hashes of the files that it came from, by path.
+    plugins : list of Plugin
+        Those that took part in reading them.
     """
 
     thing: Any
     files: dict[str, str | None]
+    plugins: list[Plugin]
 
 
 class LoadedFiles:
@@ -51,7 +57,7 @@ class LoadedFiles:
     def __init__(self) -> None:
         self._resources = Resources()
         self._kept: OrderedDict[tuple, Held] = OrderedDict()
-        self.inputs: InputFiles | None = None
+        self.inputs: Inputs | None = None
         self.out = ""  # the output folder
 
     def mesh(self, path: str, options: dict[str, Any]) -> Mesh:
@@ -68,9 +74,9 @@ class LoadedFiles:
         key = "scene", path, root, self.out
         held = self._kept.get(key)
         if held is None or _changed(held.thing):
-            with _found(path) as files:
+            with _found(path) as (files, plugins):
                 document = load_document(path, companion=not_written_to(self.out), root=root)
-            held = Held((document, _versions(document)), files)
+            held = Held((document, _versions(document)), files, plugins)
         self._keep(key, held)
         document = held.thing[0]
         scene = scene_from_document(document)
@@ -80,9 +86,10 @@ class LoadedFiles:
         return scene
 
     def forget_changed(self) -> None:
-        """Drop cached results of files that have changed."""
+        """Drop cached results of files that have changed, or whose plug-ins are gone."""
         for key, held in list(self._kept.items()):
-            if any(digest_of(path) != digest for path, digest in held.files.items()):
+            is_old = any(digest_of(path) != digest for path, digest in held.files.items())
+            if is_old or not are_here(plugin.stamp for plugin in held.plugins):
                 del self._kept[key]
                 self._resources = Resources()
 
@@ -90,10 +97,10 @@ class LoadedFiles:
         path = os.path.realpath(path)
         key = kind, path, tuple(sorted(options.items()))
         held = self._kept.get(key)
-        with _found(path) as files:
+        with _found(path) as (files, plugins):
             thing = load(path, **options)  # cached files are not read again
         same = held is not None and held.thing is thing
-        self._keep(key, held if same else Held(thing, files))
+        self._keep(key, held if same else Held(thing, files, plugins))
         return thing
 
     def _keep(self, key: tuple, held: Held) -> None:
@@ -102,21 +109,24 @@ class LoadedFiles:
         self._kept.move_to_end(key)
         while len(self._kept) > KEPT:
             self._kept.popitem(last=False)
-        for path in held.files if self.inputs is not None else ():
-            self.inputs.note(path)
+        if self.inputs is not None:
+            for path in held.files:
+                self.inputs.note(path)
+            for plugin in held.plugins:
+                self.inputs.note_plugin(plugin)
 
 
 @contextmanager
-def _found(path: str) -> Iterator[dict[str, str | None]]:
-    """Collect the paths read within the block, with their hashes before reading."""
-    files = {path: digest_of(path)}
+def _found(path: str) -> Iterator[tuple[dict[str, str | None], list[Plugin]]]:
+    """Collect the paths read within the block, with their hashes before, and the plug-ins."""
+    files, plugins = {path: digest_of(path)}, []
 
     def note(one: str) -> None:
         one = os.path.realpath(one)
         files.setdefault(one, digest_of(one))
 
-    with found_files(note):
-        yield files
+    with found_files(note), participants(plugins.append):
+        yield files, plugins
 
 
 def _versions(document: Document) -> tuple:
@@ -146,7 +156,7 @@ def not_written_to(out: str) -> Callable[[str], bool]:
 
 
 @contextmanager
-def loading(files: LoadedFiles, inputs: InputFiles, out: str) -> Iterator[None]:
+def loading(files: LoadedFiles, inputs: Inputs, out: str) -> Iterator[None]:
     """Make `load_mesh` and `load_texture` use the given files within the block."""
     files.forget_changed()
     token, files.inputs, files.out = _current.set(files), inputs, out

@@ -16,14 +16,13 @@ from ...base.calls import checks_types
 from ...errors import InvalidArgumentError
 from ...io.reading.json_values import JsonValue, parsed_json
 from ...io.reading.sources import read_source
-from ..datasets import BopWriter, CocoWriter, FolderWriter, WebDatasetWriter
+from ..datasets.kinds import KINDS, writer_class
 from ..datasets.writer import DatasetWriter
 from .matrix import Value, combinations, name_from, value_of
 from .members import MemberError
 from .task import Task, check_look, checked, task_of
 
 VERSION = 1
-_WRITERS = {w.kind: w for w in (BopWriter, CocoWriter, FolderWriter, WebDatasetWriter)}
 _KEYS = {one.name for one in fields(Task)} - {"index", "folder"}
 _MOST = 10_000_000  # tasks
 
@@ -99,9 +98,9 @@ def _told(place: JsonValue, do: Callable[[], Any], member: str = "") -> Any:
 
 def _writer(entry: JsonValue) -> DatasetWriter:
     kind = entry.need("writer")
-    if not (isinstance(kind.value, str) and kind.value in _WRITERS):
-        raise kind.wrong(f"one of {', '.join(_WRITERS)}")
-    make = _WRITERS[kind.value]
+    if not (isinstance(kind.value, str) and kind.value in KINDS):
+        raise kind.wrong(f"one of {', '.join(KINDS)}")
+    make = writer_class(kind.value)
     known = set(inspect.signature(make).parameters)
     _check_keys(entry, {"writer", *known})
     given = {key: one.value for key, one in entry.members().items() if key != "writer"}

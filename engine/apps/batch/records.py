@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any
 from ...base.files import json_records as shapes
 from ...base.files.atomic_write import AtomicFiles
 from ...base.files.making_folders import make_folder_of
+from ...base.plugins.registry import are_here
 from ...errors import FileAccessError, FileFormatError, warn
 from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
-from .file_digests import InputFiles, are_as_before
+from .file_digests import Inputs, are_as_before
 from .task import Task
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def write_picture(
     out: str,
     task: Task,
     key: str,
-    inputs: InputFiles,
+    inputs: Inputs,
     files: Mapping[str, Content],
     said: Any,
     blank: Reason | None = None,
@@ -46,6 +47,8 @@ def write_picture(
     """
     hashes = {path: hashlib.sha256(data).hexdigest() for path, data in own_files(files).items()}
     record = {"key": key, "inputs": inputs.digests(), "files": hashes, "said": said}
+    if inputs.plugins():
+        record["plugins"] = inputs.plugins()
     if blank is not None:
         record |= {"blank": True, "why": blank.word}
         warn(f"{task.name}: nothing shows: {blank.sentence}")
@@ -83,7 +86,11 @@ def _record(said: shapes.Shape) -> shapes.Shape:
             "files": shapes.mapped(shapes.path_inside, _DIGEST),
             "said": said,
         },
-        {"blank": shapes.one_of(True), "why": shapes.text},
+        {
+            "plugins": shapes.listed(shapes.row(*[shapes.text] * 4)),
+            "blank": shapes.one_of(True),
+            "why": shapes.text,
+        },
     )
 
 
@@ -102,6 +109,6 @@ def is_done(out: str, task: Task, writer: DatasetWriter) -> bool:
         data = writer.stored(out, note, path)
         if data is None or hashlib.sha256(data).hexdigest() != digest:
             return False
-    if not writer.is_whole(out, note):
+    if not (writer.is_whole(out, note) and are_here(record.get("plugins", ()))):
         return False
     return are_as_before(task.folder, record["inputs"])

@@ -24,6 +24,7 @@ from ...base.files.atomic_write import LEFT_BEHIND, checked_path
 from ...base.files.hashing import hash_of_file
 from ...base.files.making_folders import make_folder_of
 from ...base.numbers import real, shown
+from ...base.plugins.discovery import are_on
 from ...base.validation import whole_number
 from ...choices import Backend
 from ...errors import FileAccessError, InvalidArgumentError, warn
@@ -115,11 +116,20 @@ def run(
         try:
             with engine_for(jobs, threads, executor, scheduler, timeout) as engine:
                 limit = None if engine.ends_calls else timeout
-                how = How(folder, writer, engine.threads, backend, resume, __version__, limit)
+                how = How(
+                    folder,
+                    writer,
+                    engine.threads,
+                    backend,
+                    resume,
+                    __version__,
+                    limit,
+                    are_on(),
+                )
                 summary = _Run(numbered, how, engine, progress).run()
         finally:
             _remove_left_behind(folder)
-        summary.hash = _finish(numbered, how)
+        summary.hash, summary.plugins = _finish(numbered, how)
     return summary
 
 
@@ -269,17 +279,19 @@ class _Notes:
                 yield task, record
 
 
-def _finish(tasks: Sequence[Task], how: How) -> str:
-    """Write the files of the whole set; return the hash of everything."""
+def _finish(tasks: Sequence[Task], how: How) -> tuple[str, list[str]]:
+    """Write the files of the whole set; return the hash of everything, and who took part."""
     notes, whole = _Notes(tasks, how), []
     if how.writer is not None:
         whole = list(how.writer.finish(how.out, notes))
     hashes = {p: _digest(f"{how.out}/{p}") for p in whole}
+    plugins: set[str] = set()
     for _, record in notes.records():
+        plugins.update(f"{name} {version}" for _, _, name, version in record.get("plugins", ()))
         files = record["files"].items()
         # A missing file is inside one of the listed files.
         hashes.update((p, digest) for p, digest in files if os.path.exists(f"{how.out}/{p}"))
-    return write_sums(how.out, hashes.items())
+    return write_sums(how.out, hashes.items()), sorted(plugins)
 
 
 def _digest(path: str) -> str:

@@ -47,6 +47,8 @@ class Summary:
         The sum of what each picture took.
     hash : str
         SHA-256 of the file ``SHA256SUMS``, which lists all files with theirs: equal for equal sets.
+    plugins : list of str
+        The packages whose plug-ins took part in the pictures, with their versions.
     """
 
     drawn: int = 0
@@ -54,6 +56,7 @@ class Summary:
     failures: list[Failure] = field(default_factory=list)
     seconds: float = 0.0
     hash: str = ""
+    plugins: list[str] = field(default_factory=list)
 
 
 def write_sums(folder: str, hashes: Iterable[tuple[str, str]]) -> str:

@@ -17,12 +17,13 @@ from typing import Any, get_args
 from ...base.calls import checks_types
 from ...base.image_size import check_size
 from ...base.numbers import shown
-from ...base.validation import choose
+from ...base.validation import choose, flag
 from ...choices import Antialiasing, ImageFormat, LookName, Samples
 from ...errors import InvalidArgumentError
 from ...model.scene.scene import Scene
 from ...rendering.frame import OUTPUTS
 from ...rendering.options import RenderOptions
+from ...stage.look import LOOK_CHOICES
 from ...version import __version__
 from ..datasets.writer import DatasetWriter
 from .cameras import check_camera
@@ -62,7 +63,7 @@ class Task:
         As in `Renderer`.
     render : mapping
         Keyword arguments of `RenderOptions`, except ``outputs``.
-    look : {"studio", "plain"}, optional
+    look : {"studio", "plain"} or the name of a plug-in's look, optional
         Draw the model as ``engine3d render --look`` does. Such a task allows no script, ``render``,
         ``scene`` or output except colour, and only the camera members ``azimuth_degrees`` and
         ``elevation_degrees``, relative to the command's view, and ``yfov_degrees``. By default,
@@ -83,6 +84,8 @@ class Task:
         The base of relative paths; by default the current folder.
     root : str, optional
         A second folder, besides the model's own, for files named in the model.
+    plugins : bool
+        Whether installed packages that extend engine3d may take part (docs/plugins.md).
 
     Raises
     ------
@@ -99,7 +102,7 @@ class Task:
     samples: Samples = 4
     antialiasing: Antialiasing = "msaa"
     render: Mapping[str, Any] = field(default_factory=dict)
-    look: LookName | None = None
+    look: LookName | str | None = None
     scene: Mapping[str, Any] = field(default_factory=dict)
     outputs: Sequence[str] = ("color",)
     seed: int = 0
@@ -107,6 +110,7 @@ class Task:
     index: int = 0
     folder: str = field(default_factory=os.getcwd)
     root: str | None = None
+    plugins: bool = True
 
     def __post_init__(self) -> None:
         for one in fields(self):
@@ -279,6 +283,12 @@ def _scene(value: Any) -> dict[str, Any]:
     return values
 
 
+def _look(value: Any) -> str | None:
+    if value is None or (isinstance(value, str) and value in LOOK_CHOICES):
+        return value
+    return choose(value, (None, *LOOK_CHOICES), "look")
+
+
 def _outputs(value: Any) -> tuple[str, ...]:
     names = _texts("outputs")(value)
     for number, name in enumerate(names):
@@ -309,11 +319,12 @@ _CHECKS = {
     "antialiasing": lambda value: choose(value, get_args(Antialiasing), "antialiasing"),
     "render": _render,
     "scene": _scene,
-    "look": lambda value: choose(value, (None, *get_args(LookName)), "look"),
+    "look": _look,
     "outputs": _outputs,
     "seed": _whole("seed"),
     "inputs": _texts("inputs"),
     "root": _optional_text("root"),
+    "plugins": lambda value: flag(value, "plugins"),
     "index": _whole("index"),
     "folder": _text("folder"),
 }

@@ -53,9 +53,10 @@ def _replace_closed_streams() -> None:
 def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
     """Run a command, and print every foreseen exception as one line."""
     from ...errors import Engine3DError
+    from .plugin_switch import plugins_as_asked
 
     try:
-        with _short_warnings(), _ended_politely():
+        with _short_warnings(), _ended_politely(), plugins_as_asked(arguments):
             status = _obey(arguments, begin)
             sys.stdout.flush()
         return status

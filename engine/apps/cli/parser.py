@@ -11,6 +11,8 @@ from ...version import __version__
 from . import config
 from .arguments import Parser, join_values, option_meant
 from .commands import COMMANDS
+from .plugin_commands import plugin_commands
+from .plugin_switch import NO_PLUGINS
 from .short_help import shorten
 from .usage import UsageError
 
@@ -80,8 +82,9 @@ def make_parser(asked: str | None = None) -> Parser:
         nargs=0,
         help="print the file formats that can be read",
     )
+    add_no_plugins(parser)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
-    for name, row in COMMANDS.items():
+    for name, row in (COMMANDS | plugin_commands(asked)).items():
         command = commands.add_parser(
             name, allow_abbrev=False, help=row.help, description=row.description
         )
@@ -90,6 +93,7 @@ def make_parser(asked: str | None = None) -> Parser:
             row.add(command)
             if row.is_quiet:
                 add_quiet(command)
+            add_no_plugins(command)
             if row.common:
                 shorten(command, row.common)
     parser.commands = commands.choices
@@ -103,6 +107,13 @@ def _all_commands() -> Iterable[argparse.ArgumentParser]:
 def add_quiet(command: argparse.ArgumentParser) -> None:
     """Add the option for less output."""
     command.add_argument("--quiet", action="store_true", help="print errors only, no warnings")
+
+
+def add_no_plugins(command: argparse.ArgumentParser) -> None:
+    """Add the option that leaves plug-ins out, which `main` obeys before anything is parsed."""
+    command.add_argument(
+        NO_PLUGINS, action="store_true", help="leave out what other packages add (docs/plugins.md)"
+    )
 
 
 def _missing_command():

@@ -1,7 +1,8 @@
 """The named scenes, for ``--scene`` and ``bench``.
 
-A new scene needs only a row in `SCENES`: choices, help, checks and completion follow. Nothing is
-loaded until a scene is requested, and each request creates a new scene.
+A new scene needs only a row in `SCENES`: choices, help, checks and completion follow. Scenes that
+packages add have no row, but are chosen likewise. Nothing is loaded until a scene is requested, and
+each request creates a new scene.
 """
 
 from __future__ import annotations
@@ -10,6 +11,9 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...base.plugins.open_choices import OpenChoices
+from ...base.plugins.plugin import Plugin, fault
+from ...base.plugins.registry import find_plugin
 from ...errors import InvalidArgumentError
 
 if TYPE_CHECKING:
@@ -72,6 +76,8 @@ SCENES = {
     "parcels": Named("1,600 parcels of land, joined to blocks", "crowds.parcels"),
 }
 DEMO_NAMES = tuple(name for name, scene in SCENES.items() if scene.viewed)
+#: What `load_demo` takes: these, and the scenes of plug-ins.
+DEMO_CHOICES = OpenChoices("scenes", DEMO_NAMES)
 WORKLOAD_NAMES = tuple(name for name, scene in SCENES.items() if scene.measured)
 PLAIN_NAMES = tuple(name for name in WORKLOAD_NAMES if SCENES[name].plain)
 
@@ -82,7 +88,7 @@ def load_demo(name: str, **options) -> ViewedScene:
     Parameters
     ----------
     name : str
-        One of `DEMO_NAMES`.
+        One of `DEMO_CHOICES`.
     **options
         ``triangles`` : int, of ``"city"``: how many, about. ``dusk`` : bool, of the same.
         ``subdivisions`` : int, of ``"shapes"``: into how many parts edges are cut.
@@ -91,10 +97,38 @@ def load_demo(name: str, **options) -> ViewedScene:
     ------
     InvalidArgumentError
         There is no such scene.
+    PluginError
+        The scene is a plug-in's, which is broken.
     """
-    if name not in DEMO_NAMES:
-        raise InvalidArgumentError(f"no scene {name!r}: there are {', '.join(DEMO_NAMES)}")
-    return function_of(SCENES[name].viewed)(**options)
+    if name in DEMO_NAMES:
+        return function_of(SCENES[name].viewed)(**options)
+    if (plugin := find_plugin("scenes", name)) is None:
+        raise InvalidArgumentError(f"no scene {name!r}: there are {', '.join(DEMO_CHOICES)}")
+    return _of_plugin(plugin)
+
+
+def shipped_names() -> set[str]:
+    """Return the names of the scenes that engine3d itself has."""
+    return set(SCENES)
+
+
+def _of_plugin(plugin: Plugin) -> ViewedScene:
+    """Return the scene that a plug-in makes, for viewing."""
+    from ...base.numbers import shown
+    from ...model.scene.scene import Scene
+    from ...stage.viewed_thing import viewed_of
+
+    make = plugin.use()
+    with plugin.named_in_errors():
+        scene = make()
+    if not isinstance(scene, Scene):
+        raise fault(plugin, f"returned {shown(scene)}, not a Scene")
+    viewed = viewed_of(scene)
+    assert viewed is not None
+    viewed.title = plugin.name
+    if scene.animator is not None:
+        viewed.update, viewed.plays = scene.animator.seek, True
+    return viewed
 
 
 def function_of(place: str) -> Callable:

@@ -1,7 +1,7 @@
 """Documents, the result of readers: objects with meshes, lights, cameras and counts.
 
 Documents are plain records in the file's own coordinates, without any link to scenes: the code that
-builds a scene interprets lights and cameras.
+builds a scene interprets lights and cameras. Only readers of other packages give a ready scene.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from .json_values import JsonValue
 
 if TYPE_CHECKING:
     from ...choices import Interpolation, MotionPath
+    from ...model.scene.scene import Scene
 
 #: The parts of a node's pose, as keywords of `Scene.add`.
 Place: TypeAlias = dict[str, Any]
@@ -428,6 +429,9 @@ class Document:
         into ``Mesh.values``.
     up : str
         The format's usual up axis: ``"+Y"`` or ``"+Z"``.
+    made : Scene or None
+        The scene of a plug-in's reader; the objects are its visible meshes. It is copied for each
+        caller.
     """
 
     format: str
@@ -441,3 +445,9 @@ class Document:
     unit: str = ""
     arrays: dict[str, list[str]] = field(default_factory=dict)
     up: str = "+Y"
+    made: Scene | None = None
+
+    @property
+    def is_scene(self) -> bool:
+        """Whether the file holds a scene as a program makes it, with its own background."""
+        return self.scene is not None or self.made is not None

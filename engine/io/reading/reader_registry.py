@@ -3,7 +3,7 @@
 A format is a module of `formats` with a tuple ``READERS``; adding the file registers it. The choice
 uses the signature in the first bytes, then the extension, then the look of the text if the
 extension is inconclusive. The module named after the extension is tried alone before all are
-imported.
+imported. Readers of other packages are rows beside these, for extensions that none of these has.
 """
 
 from __future__ import annotations
@@ -13,9 +13,12 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...base.calls import checks_types
+from ...base.plugins.plugin import Plugin
+from ...base.plugins.registry import find_plugin, origins_of, plugin_names
 from ...errors import FileFormatError, InvalidArgumentError
 from ..formats import modules, named
-from .sources import Source
+from .plugin_reading import read_with_plugin, up_of
+from .sources import Source, endings
 
 if TYPE_CHECKING:
     import numpy as np
@@ -89,11 +92,28 @@ def formats(kind: str | None = None) -> list[Format]:
     kind : {"mesh", "image"}, optional
         Return only formats of this kind.
     """
-    return [
+    shipped = [
         Format(reader.name, reader.description, reader.kind, reader.extensions)
         for reader in readers()
         if kind in (None, reader.kind)
     ]
+    return shipped + plugin_formats("readers") if kind in (None, "mesh") else shipped
+
+
+def plugin_formats(group: str) -> list[Format]:
+    """Return the formats that plug-ins of a group read or write; none is imported."""
+    return [
+        Format(name, f"by {origins_of(group, name)}", "mesh", (f".{name}",))
+        for name in plugin_names(group)
+    ]
+
+
+def shipped_names() -> set[str]:
+    """Return the extensions and names of model formats that engine3d itself reads."""
+    rows = [reader for reader in readers() if reader.kind == "mesh"]
+    return {reader.name for reader in rows}.union(
+        extension[1:] for reader in rows for extension in reader.extensions
+    )
 
 
 def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
@@ -119,7 +139,11 @@ def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
         return namesake
     candidates = [reader for reader in readers() if reader.kind == kind]
     if name is not None:
-        return _by_name(candidates, name, kind)
+        return _by_name(candidates, name, kind, source)
+    if kind == "mesh" and not any(source.extension in each.extensions for each in candidates):
+        found = (find_plugin("readers", end) for end in endings(source.path))
+        if (plugin := next(filter(None, found), None)) is not None:
+            return _of_plugin(plugin, source)
     for reader in candidates:
         if reader.signature is not None and reader.signature(head):
             return reader
@@ -129,7 +153,7 @@ def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
     for reader in candidates:
         if reader.resembles is not None and reader.resembles(head, source.size):
             return reader
-    known = ", ".join(sorted(e for reader in candidates for e in reader.extensions))
+    known = ", ".join(sorted(end for row in formats(kind) for end in row.extensions))
     what = repr(source.extension) if source.extension else "without an extension"
     raise FileFormatError(f"unknown {kind} format {what} (known: {known})", source.path)
 
@@ -151,10 +175,20 @@ def _recognises(reader: Reader, head: bytes, size: int) -> bool:
     return reader.resembles is not None and reader.resembles(head, size)
 
 
-def _by_name(candidates: list[Reader], name: str, kind: str) -> Reader:
+def _by_name(candidates: list[Reader], name: str, kind: str, source: Source) -> Reader:
     wanted = str(name).lower().removeprefix(".")
     for reader in candidates:
         if wanted == reader.name or "." + wanted in reader.extensions:
             return reader
-    known = ", ".join(reader.name for reader in candidates)
+    plugin = find_plugin("readers", wanted) if kind == "mesh" else None
+    if plugin is not None:
+        return _of_plugin(plugin, source)
+    known = ", ".join(row.name for row in formats(kind))
     raise InvalidArgumentError(f"format={name!r} is no {kind} format (known: {known})")
+
+
+def _of_plugin(plugin: Plugin, source: Source) -> Reader:
+    """Return the row of a plug-in, which is imported for it."""
+    up = up_of(plugin, source)
+    read = functools.partial(read_with_plugin, plugin)
+    return Reader(plugin.name, f"by {plugin.origin}", "mesh", (f".{plugin.name}",), read, up=up)

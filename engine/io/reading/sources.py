@@ -73,6 +73,8 @@ class Source(NamedTuple):
         Whether to read custom numbers into ``Mesh.values``.
     root : str or None
         A second folder, besides the model's own, for files named in the model.
+    is_on_disk : bool
+        Whether the file at the path holds these very bytes.
     """
 
     path: str
@@ -82,6 +84,7 @@ class Source(NamedTuple):
     crease_angle: float = CREASE_ANGLE
     values: bool = True
     root: str | None = None
+    is_on_disk: bool = False
 
     def __enter__(self) -> Source:
         return self
@@ -149,6 +152,17 @@ class Source(NamedTuple):
     def extension(self) -> str:
         """The extension in lower case, that of ``a.obj.gz`` being ``.obj``."""
         return stem_and_extension(self.path)[1] if self.has_name else ""
+
+
+def endings(path: str) -> list[str]:
+    """Return what a file's name may end with as an extension, the longest first, in lower case.
+
+    Those of ``a.vox.xml.gz`` are ``vox.xml.gz``, ``vox.xml``, ``xml.gz``, ``xml`` and ``gz``.
+    """
+    words = os.path.basename(path).lower().split(".")[1:]
+    ends = [".".join(words[first:]) for first in range(len(words))]
+    unpacked = [end.removesuffix(".gz") for end in ends]
+    return list(dict.fromkeys(end for pair in zip(ends, unpacked, strict=True) for end in pair))
 
 
 def stem_and_extension(path: str) -> tuple[str, str]:
@@ -230,7 +244,7 @@ def opened_source(path: str, handle: int) -> Source:
         )
     file = os.fdopen(handle, "rb", buffering=0)
     content = OpenFile(path, file)
-    return Source(path, content if content.size >= _LARGE else content.whole())
+    return Source(path, content if content.size >= _LARGE else content.whole(), is_on_disk=True)
 
 
 def _read_resource(file: Traversable) -> Source:

@@ -78,10 +78,12 @@ def scene_from_document(document: Document, variant: str | int | None = None) ->
     InvalidArgumentError
         The variant does not exist.
     """
-    scene = Scene()
-    scene.warnings.extend(document.warnings)
+    scene = Scene() if document.made is None else document.made.copy()
+    scene.warnings = list(document.warnings)
     if variant is not None:
         choose_variant(document.tree, variant)
+    if document.made is not None:
+        return scene
     if document.tree is not None:
         scene.ambient = (0, 0, 0)  # glTF has no ambient light
         fill_from_tree(scene, document.tree)

@@ -9,7 +9,8 @@ from ...base.calls import checks_types
 from ...base.files.atomic_write import AtomicFiles, StreamFiles, checked_path
 from ...errors import InvalidArgumentError, located, warn
 from ...model.geometry.mesh import Mesh
-from .writer_registry import find_writer
+from ...model.scene.scene import Scene
+from .writer_registry import Writer, find_writer
 
 
 @checks_types
@@ -35,7 +36,8 @@ def save_mesh(
     format : str, optional
         The format's name; overrides the extension.
     **options
-        ``ascii`` : bool, for PLY and STL: text instead of little-endian binary.
+        ``ascii`` : bool, for PLY and STL: text instead of little-endian binary. Writers of other
+        packages (docs/plugins.md) have options of their own.
 
     Raises
     ------
@@ -46,14 +48,25 @@ def save_mesh(
     """
     if not isinstance(mesh, Mesh):
         raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
-    target: Any = path
-    is_stream = hasattr(target, "write")
-    name = "<stream>" if is_stream else checked_path(target)
-    writer = find_writer(name, format)
+    writer = find_writer(_name_of(path), format)
+    thing: Mesh | Scene = mesh
+    if writer.of_scenes:
+        thing = Scene()
+        thing.add(mesh, name=mesh.name)
+    write(thing, path, writer, **options)
+
+
+def write(thing: Mesh | Scene, path: Any, writer: Writer, **options: Any) -> None:
+    """Write what a writer takes to a path or a binary file object; otherwise as `save_mesh`."""
+    name = _name_of(path)
     unknown = sorted(set(options) - set(writer.options))
     if unknown:
         raise InvalidArgumentError(f"{writer.name} files have no option {unknown[0]!r}")
-    with StreamFiles(target) if is_stream else AtomicFiles() as files:
-        told = writer.write(mesh, name, files, **options)
+    with StreamFiles(path) if hasattr(path, "write") else AtomicFiles() as files:
+        told = writer.write(thing, name, files, **options)
     for message in told:
         warn(located(message, name))
+
+
+def _name_of(path: Any) -> str:
+    return "<stream>" if hasattr(path, "write") else checked_path(path)

@@ -42,6 +42,8 @@ from ..formats.scene_file import FORMAT, LISTS, VERSION
 from ..reading.json_values import ARRAY_TYPES
 from ..scenes.motion_records import motion_entries
 from ..scenes.object_kinds import kind_of, parameters, plain, values_of, written
+from .saving import write
+from .writer_registry import SCENE_EXTENSION, plugin_writer
 
 _ENVIRONMENT_VALUES = {
     "environment_intensity": 1.0,
@@ -60,7 +62,8 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     scene : Scene
     path : str or path-like
         ``.glb`` and ``.gltf`` give glTF 2.0, all in one file; unchanged images keep their encoded
-        bytes. Any other extension gives engine3d's JSON, usually named ``.e3d.json``, which
+        bytes. An extension for which a package adds a writer (docs/plugins.md) gives its format.
+        Any other extension gives engine3d's JSON, usually named ``.e3d.json``, which
         `load_scene` detects by content; meshes, textures and environments from files in its folder,
         or below it, are stored by relative path, all others inside the file. Losses are issued as
         `Engine3DWarning`. Motion is saved if it belongs to ``scene.animator``.
@@ -78,6 +81,10 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     extension = os.path.splitext(name)[1].lower()
     if extension in gltf.EXTENSIONS:
         gltf.save_scene_as(scene, name, extension)
+        return
+    writer = None if extension == SCENE_EXTENSION else plugin_writer(name)
+    if writer is not None:
+        write(scene, name, writer)
         return
     content, told = scene_text(scene, os.path.dirname(name) or ".")
     with atomic_write(name) as file:

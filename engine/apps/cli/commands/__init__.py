@@ -1,7 +1,8 @@
 """The table of commands, from which parser, help and completion are built.
 
 A command is a function in the module of the same name, which is imported only to run it, so that
-``--help`` is fast; its options' module is imported only on request.
+``--help`` is fast; its options' module is imported only on request. Commands that packages add are
+rows beside these (`plugin_commands`).
 """
 
 from __future__ import annotations
@@ -66,6 +67,10 @@ def _add_info(command: argparse.ArgumentParser) -> None:
 
 def _add_completion(command: argparse.ArgumentParser) -> None:
     command.add_argument("shell", choices=("bash", "zsh", "fish"), help="which shell")
+
+
+def _add_plugins(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--json", action="store_true", help="print JSON: an object for each")
 
 
 def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
@@ -160,6 +165,13 @@ COMMANDS = {
         _of_modules("bench_options"),
         is_quiet=False,
     ),
+    "plugins": Command(
+        "list the packages that extend engine3d",
+        "List what installed packages add to engine3d (docs/plugins.md): readers, writers, kinds "
+        "of data sets, commands, scenes, looks; and whether each can be imported.",
+        _add_plugins,
+        is_quiet=False,
+    ),
     "completion": Command(
         "print what lets a shell complete commands and options",
         "Print a script for a shell. To try it: source <(engine3d completion bash), the same with "
@@ -168,3 +180,8 @@ COMMANDS = {
         is_quiet=False,
     ),
 }
+
+
+def shipped_names() -> set[str]:
+    """Return the commands that engine3d itself has."""
+    return set(COMMANDS)

@@ -44,6 +44,8 @@ def _report(summary: Summary) -> int:
     if not quietness.is_quiet():
         counts = f"{summary.drawn:,} drawn, {summary.done_before:,} done before, {len(failed):,}"
         print(f"{counts} failed; SHA256SUMS {summary.hash}")
+        if summary.plugins:
+            print(f"with plug-ins of {', '.join(summary.plugins)}")
     return 1 if failed else 0
 
 

@@ -13,6 +13,8 @@ from ....io.formats.gltf.gltf_writer import save_scene_as
 from ....io.loaders import load_mesh
 from ....io.scenes.scene_loading import load_scene
 from ....io.writers import formats, save_mesh
+from ....io.writing.saving import write
+from ....io.writing.writer_registry import find_writer, plugin_writer, writers
 from ..loading_bar import LoadingBar
 from ..options.input_options import model_file
 from ..outputs import (
@@ -38,7 +40,10 @@ def convert(args: argparse.Namespace) -> int:
         raise UsageError(f"--ascii is for {' and '.join(BINARY_FORMATS)} files")
     if is_same_file(args.model, output):
         raise UsageError(f"{printable(output)} is the model itself")
-    convert = _scene if extension in SCENE_FORMATS else _mesh
+    if extension in SCENE_FORMATS:
+        convert = _scene
+    else:
+        convert = _with_plugin if find_writer(extension, extension).of_scenes else _mesh
     with LoadingBar() as progress:
         how = {"progress": progress, "root": args.root}
         save = convert(model_file(args.model), how, args.format, extension, options)
@@ -64,6 +69,12 @@ def _scene(model, how: dict, format: str | None, extension: str, options: dict):
     return lambda output: save_scene_as(scene, output, extension)
 
 
+def _with_plugin(model, how: dict, format: str | None, extension: str, options: dict):
+    """Return the function that saves a whole model by the writer of another package."""
+    scene = load_scene(model, **how)
+    return lambda output: write(scene, output, find_writer(extension, extension))
+
+
 def _output(args: argparse.Namespace) -> str:
     """Return the output, named by OUT or ``-o``."""
     named = [name for name in (args.output, args.output_option) if name is not None]
@@ -77,13 +88,19 @@ def _output(args: argparse.Namespace) -> str:
 
 def _checked_extension(output: str, format: str | None) -> str:
     """Return the format's extension in lower case; refuse names without one before any work."""
+    shipped = [extension for writer in writers() for extension in writer.extensions]
+    if format is None and os.path.splitext(output)[1].lower() in shipped:
+        return check_output(output, shipped, "a model").lower()
     known = {extension: item.name for item in formats() for extension in item.extensions}
     if output == STANDARD_OUTPUT:
         if format is None:
             raise UsageError(f"- needs --format: one of {', '.join(known.values())}")
         check_standard_output()
     elif format is None:
-        return check_output(output, known, "a model").lower()
+        if (writer := plugin_writer(output)) is None:
+            return check_output(output, known, "a model").lower()
+        check_folder(output)
+        return writer.extensions[0]
     else:
         check_folder(output)
     return next(extension for extension, name in known.items() if name == format)

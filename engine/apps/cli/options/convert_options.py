@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ....base.plugins.open_choices import OpenChoices
 from .input_options import add_root
 
 MODEL_FORMATS = ("glb", "gltf", "obj", "ply", "stl")
@@ -20,9 +21,10 @@ def add(command) -> None:
     )
     command.add_argument(
         "--format",
-        choices=MODEL_FORMATS,
-        help="what to write whatever the extension; OBJ with materials is several files, and does "
-        "not go to standard output",
+        choices=OpenChoices("writers", MODEL_FORMATS),
+        metavar="NAME",
+        help=f"what to write whatever the extension: {', '.join(MODEL_FORMATS)}, or what a plug-in "
+        "writes; OBJ with materials is several files, and does not go to standard output",
     )
     add_root(command)
     command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")

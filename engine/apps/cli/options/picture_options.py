@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any, get_args
 
+from ....base.plugins.open_choices import OpenChoices
 from ....choices import Backend, LookName, Samples
 from .. import values
 from ..usage import UsageError
@@ -47,11 +48,12 @@ def add_look(group) -> None:
     """Add the option for the look."""
     group.add_argument(
         "--look",
-        choices=LOOKS,
+        choices=OpenChoices("looks", LOOKS),
+        metavar="NAME",
         default=LOOKS[0],
         help="studio, the default: models stand on their shadow before a gradient, in soft light, "
         "with ambient occlusion and neutral tone mapping; plain: with none of these, lit from the "
-        "camera, before black. Other options have the last word",
+        "camera, before black; or a look that a plug-in adds. Other options have the last word",
     )
     group.add_argument(
         "--ground",

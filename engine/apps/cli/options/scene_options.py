@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from ...scenes import DEMO_NAMES, SCENES
+from ...scenes import DEMO_CHOICES, DEMO_NAMES, SCENES
 from .. import values
 from ..loading_bar import LoadingBar
 from ..outputs import not_the_output
@@ -51,7 +51,10 @@ def add(parser) -> None:
         help="stand several models in a row, upright and in their own sizes",
     )
     group.add_argument(
-        "--scene", choices=DEMO_NAMES, metavar="NAME", help=f"a scene: {', '.join(DEMO_NAMES)}"
+        "--scene",
+        choices=DEMO_CHOICES,
+        metavar="NAME",
+        help=f"a scene: {', '.join(DEMO_NAMES)}; or one that a plug-in adds",
     )
     group.add_argument(
         "--triangles",

@@ -1,0 +1,62 @@
+"""Commands that packages add: rows beside those that ship.
+
+In: plug-ins of the group ``engine3d.commands``; their values are ``add(parser) -> run``, where
+``run(args)`` returns an exit status. Nothing is imported before a plug-in's command is asked for.
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+from collections.abc import Callable
+
+from ...base.plugins.plugin import Plugin, fault
+from ...base.plugins.registry import find_plugin, origins_of, plugin_names
+from ...errors import PluginError, warn
+from .commands import COMMANDS, Command
+
+
+def plugin_commands(asked: str | None) -> dict[str, Command]:
+    """Return the rows of plug-ins' commands; none where a command that ships is asked for."""
+    if asked in COMMANDS:
+        return {}
+    return {name: _row(name, asked) for name in plugin_names("commands")}
+
+
+def _row(name: str, asked: str | None) -> Command:
+    # argparse formats the texts with %
+    about = f"by {origins_of('commands', name)}".replace("%", "%%")
+    return Command(about, about, functools.partial(_add, name, asked))
+
+
+def _add(name: str, asked: str | None, parser: argparse.ArgumentParser) -> None:
+    """Let a plug-in add its options; if all commands are asked for, a broken one is left out."""
+    try:
+        plugin = find_plugin("commands", name)
+        assert plugin is not None
+        run = _added(plugin, parser)
+    except PluginError as error:
+        if asked is not None:
+            raise
+        warn(f"{error}: its options are left out")
+        return
+    parser.set_defaults(load_command=lambda: functools.partial(_run, plugin, run))
+
+
+def _added(plugin: Plugin, parser: argparse.ArgumentParser) -> Callable:
+    add = plugin.use()
+    with plugin.named_in_errors():
+        run = add(parser)
+    if not callable(run):
+        raise fault(plugin, f"returned {type(run).__name__}, not the function that runs it")
+    parser.description = (add.__doc__ or parser.description or "").strip()
+    return run
+
+
+def _run(plugin: Plugin, run: Callable, args: argparse.Namespace) -> int:
+    """Run the command of a plug-in; return the exit status."""
+    with plugin.named_in_errors():
+        status = run(args)
+    if status is not None and type(status) is not int:
+        raise fault(plugin, f"returned {type(status).__name__}, not an exit status")
+    return status or 0

@@ -1,0 +1,51 @@
+"""The kinds of data sets that manifests name: those that ship, and those of other packages."""
+
+from __future__ import annotations
+
+from ...base.numbers import shown
+from ...base.plugins.open_choices import OpenChoices
+from ...base.plugins.plugin import Plugin, fault
+from ...base.plugins.registry import find_plugin
+from .bop import BopWriter
+from .coco import CocoWriter
+from .folders import FolderWriter
+from .web import WebDatasetWriter
+from .writer import DatasetWriter
+
+_WRITERS: dict[str, type[DatasetWriter]] = {
+    writer.kind: writer for writer in (BopWriter, CocoWriter, FolderWriter, WebDatasetWriter)
+}
+#: What ``"writer"`` of a manifest may say.
+KINDS = OpenChoices("datasets", _WRITERS)
+
+
+def shipped_names() -> set[str]:
+    """Return the kinds that engine3d itself has."""
+    return set(_WRITERS)
+
+
+def writer_class(kind: str) -> type[DatasetWriter]:
+    """Return the writer of a kind, one of `KINDS`.
+
+    Raises
+    ------
+    PluginError
+        It is a plug-in's, which is broken.
+    """
+    if kind in _WRITERS:
+        return _WRITERS[kind]
+    plugin = find_plugin("datasets", kind)
+    if plugin is None:
+        raise KeyError(kind)
+    writer: type[DatasetWriter] = plugin.load()
+    if getattr(writer, "kind", None) != kind:
+        raise fault(plugin, f"has kind = {shown(getattr(writer, 'kind', None))}")
+    return writer
+
+
+def plugin_of(writer: DatasetWriter) -> Plugin | None:
+    """Return the plug-in whose writer this is, or None."""
+    if type(writer).__module__.partition(".")[0] == __name__.partition(".")[0]:
+        return None  # of engine3d: no metadata is read
+    plugin = find_plugin("datasets", writer.kind)
+    return plugin if plugin is not None and plugin.load() is type(writer) else None

@@ -1,0 +1,228 @@
+"""Plug-ins that are broken or in each other's way: the error names them, and all else works."""
+
+import json
+
+import pytest
+
+import engine3d as e3d
+from engine3d.apps.cli import main
+from engine3d.apps.datasets.kinds import writer_class
+from engine3d.base.plugins.groups import GROUPS
+from engine3d.base.plugins.registry import find_plugin
+from engine3d.errors import PluginError
+
+READER = """
+import engine3d as e3d
+
+def read(file):
+    return e3d.box(float(file.read()))
+"""
+NAMED = r"demo-0 1\.2 \(entry point 'vox' of engine3d\.readers\)"
+
+
+@pytest.fixture
+def vox(tmp_path):
+    path = tmp_path / "a.vox"
+    path.write_text("2")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        ("import nowhere_to_be_found", "could not be imported: No module named 'nowhere_to"),
+        ("1 / 0", "could not be imported: ZeroDivisionError: division by zero"),
+        ("raise SystemExit(3)", "could not be imported: SystemExit: 3"),
+        ("", "could not be imported: AttributeError: module 'demo_0_.*has no attribute 'read'"),
+        ("read = 3", "must be a function"),
+        ("def read(file): return [1]", "returned list, not a Mesh or a Scene"),
+        ("def read(file): pass", "returned nothing, not a Mesh or a Scene"),
+        ("def read(file): return {}['a']", r"raised KeyError: 'a' \(demo_0_.*\.py:1\)"),
+        ("def read(): pass", r"raised TypeError: read\(\) takes 0 positional"),
+        ("def read(file): pass\nread.up = 'Z'", "says up = 'Z': it must be one of"),
+        ("def read(file): pass\nread.engine3d_api = 2", "needs the contract 2 of plug-ins, but"),
+        ("def read(file): pass\nread.engine3d_api = '1'", "says engine3d_api = '1', which is no"),
+        (
+            "from engine3d import Mesh\ndef read(file): return Mesh([[0, 0, 0]], [[0, 1, 2]])",
+            "faces holds the index 2, but there are 1 vertices",
+        ),
+    ],
+)
+def test_a_broken_reader_is_an_error_of_the_file(package, vox, tmp_path, code, said):
+    package(code, readers={"vox": "{0}:read"})
+    with pytest.raises(e3d.FileFormatError, match=rf"a\.vox: {NAMED}:? {said}") as told:
+        e3d.load_mesh(vox)
+    assert "\n" not in str(told.value)
+    e3d.save_mesh(e3d.box(), tmp_path / "a.obj")
+    assert len(e3d.load_mesh(tmp_path / "a.obj").faces) == 12
+
+
+def test_what_a_reader_raises_on_purpose_passes(package, vox, tmp_path):
+    code = "import engine3d as e3d\ndef read(file): raise e3d.FileFormatError('bad', line=3)"
+    package(code, readers={"vox": "{0}:read"})
+    with pytest.raises(e3d.FileFormatError) as told:
+        e3d.load_mesh(vox)
+    assert str(told.value) == f"{vox}:3: bad"
+    package("def read(file): open('/nowhere/at/all')", readers={"vex": "{0}:read"})
+    with pytest.raises(e3d.FileAccessError, match="/nowhere/at/all: cannot read: No such file"):
+        e3d.load_mesh(vox.rename(tmp_path / "a.vex"))
+
+
+def test_the_original_is_the_cause(package, vox):
+    package("def read(file): return {}['a']", readers={"vox": "{0}:read"})
+    with pytest.raises(e3d.FileFormatError) as told:
+        e3d.load_mesh(vox)
+    assert isinstance(told.value.__cause__, KeyError)
+
+
+def test_an_interrupt_passes(package, vox):
+    package("def read(file): raise KeyboardInterrupt", readers={"vox": "{0}:read"})
+    with pytest.raises(KeyboardInterrupt):
+        e3d.load_mesh(vox)
+
+
+def test_two_packages_for_one_name(package, vox, tmp_path, capsys):
+    package(READER, readers={"vox": "{0}:read", "vix": "{0}:read"})
+    package(READER, readers={"vox": "{0}:read"})
+    message = r"demo-0 1\.2 .* and demo-1 1\.2 .* both add 'vox': uninstall one of them"
+    with pytest.raises(PluginError, match=message):
+        e3d.load_mesh(vox)
+    assert e3d.load_mesh(vox.rename(tmp_path / "a.vix")).bounds[1, 0] == 1
+    assert main(["plugins"]) == 1
+    assert capsys.readouterr().out.count("another package adds 'vox', too") == 2
+
+
+def test_of_two_versions_the_first_on_the_path_counts(package, vox):
+    package(READER, name="same", version="1.0", readers={"vox": "{0}:read"})
+    package(READER, name="Same", version="2.0", readers={"vox": "{0}:read"})
+    assert find_plugin("readers", "vox").version == "2.0"
+
+
+def test_what_ships_wins(package, tmp_path, capsys):
+    package("def read(file): 1 / 0", readers={"obj": "{0}:read"}, looks={"studio": "{0}:read"})
+    e3d.save_mesh(e3d.box(), tmp_path / "a.obj")
+    assert len(e3d.load_mesh(tmp_path / "a.obj").faces) == 12
+    e3d.render(e3d.box(), size=(8, 6), look="studio")
+    assert main(["plugins"]) == 1
+    assert "is never used: engine3d itself has 'obj'" in capsys.readouterr().out
+
+
+BROKEN = {group: {"demo": "nowhere_to_be_found:value"} for group in GROUPS}
+
+
+def test_a_package_broken_in_all_ways_breaks_nothing_else(package, tmp_path, capsys):
+    package(**BROKEN)
+    for arguments in (
+        ["--help"],
+        ["render", "--help-all"],
+        ["--list-readers"],
+        ["completion", "zsh"],
+    ):
+        assert main(arguments) == 0
+    e3d.save_mesh(e3d.box(), tmp_path / "a.obj")
+    out = ["-o", str(tmp_path / "a.png"), "--size", "16x12"]
+    assert main(["render", str(tmp_path / "a.obj"), *out]) == 0
+    capsys.readouterr()
+    for arguments in (["demo"], ["render", "--scene", "demo", *out]):
+        assert main(arguments) == 1
+        said = capsys.readouterr().err
+        assert said.startswith("engine3d: error: demo-0 1.2 (entry point 'demo' of engine3d.")
+        assert "could not be imported: No module named 'nowhere_to_be_found'" in said
+    assert main(["plugins", "--json"]) == 1
+    report = json.loads(capsys.readouterr().out)["plugins"]
+    assert len(report) == len(GROUPS) and all(one["milliseconds"] is None for one in report)
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda path: e3d.save_mesh(e3d.box(), path / "a.demo"),
+        lambda path: e3d.save_scene(e3d.Scene(), path / "a.demo"),
+        lambda path: e3d.render(e3d.box(), look="demo"),
+        lambda path: writer_class("demo"),
+    ],
+)
+def test_a_broken_plugin_is_named_where_it_is_used(package, tmp_path, use):
+    package(**BROKEN)
+    with pytest.raises(PluginError, match=r"^demo-0 1\.2 \(entry point 'demo' of engine3d\."):
+        use(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("group", "code", "use", "said"),
+    [
+        (
+            "looks",
+            "value = 3",
+            lambda: e3d.render(e3d.box(), look="demo"),
+            "must be a Look",
+        ),
+        (
+            "datasets",
+            "class value: kind = 'demo'",
+            lambda: writer_class("demo"),
+            "must be a Data",
+        ),
+        (
+            "datasets",
+            "from engine3d.datasets import FolderWriter as value",
+            lambda: writer_class("demo"),
+            "has kind = 'folders'",
+        ),
+        (
+            "writers",
+            "value = 3",
+            lambda: e3d.save_mesh(e3d.box(), "a.demo"),
+            "must be a function",
+        ),
+        (
+            "writers",
+            "def value(scene, file): return 'lost'",
+            lambda: e3d.save_mesh(e3d.box(), "a.demo"),
+            "returned 'lost', not None or a list",
+        ),
+    ],
+)
+def test_what_breaks_the_contract_is_named(package, tmp_path, monkeypatch, group, code, use, said):
+    monkeypatch.chdir(tmp_path)
+    package(code, **{group: {"demo": "{0}:value"}})
+    with pytest.raises(PluginError, match=rf"^demo-0 1\.2 .*{said}"):
+        use()
+    assert not (tmp_path / "a.demo").exists()
+
+
+@pytest.mark.parametrize(
+    ("group", "code", "arguments", "said"),
+    [
+        ("scenes", "def value(): return 3", ["render", "--scene", "demo"], "returned 3, not a Sc"),
+        ("scenes", "value = 3", ["render", "--scene", "demo"], "must be a function"),
+        ("commands", "def value(parser): pass", ["demo"], "returned NoneType, not the func"),
+        ("commands", "def value(parser): return lambda args: {}['a']", ["demo"], "raised KeyError"),
+        (
+            "commands",
+            "def value(parser): return lambda args: 'x'",
+            ["demo"],
+            "returned str, not an",
+        ),
+    ],
+)
+def test_a_command_says_what_is_wrong(package, tmp_path, capsys, group, code, arguments, said):
+    package(code, **{group: {"demo": "{0}:value"}})
+    out = ["-o", str(tmp_path / "a.png"), "--size", "16x12"] if len(arguments) > 1 else []
+    assert main([*arguments, *out]) == 1
+    assert f"of engine3d.{group}) {said}" in capsys.readouterr().err
+
+
+def test_damaged_metadata_of_a_package_is_told_and_passed_over(package, vox):
+    package(READER, readers={"vox": "{0}:read"})
+    folder = package(READER, readers={"vex": "{0}:read"})
+    points = next(folder.glob("*.dist-info")) / "entry_points.txt"
+    points.write_text("[engine3d.readers]\nno value\n")
+    with pytest.warns(e3d.Engine3DWarning, match="metadata cannot be read"):
+        assert len(e3d.load_mesh(vox).faces) == 12
+    points.write_bytes(b"[engine3d.readers]\n\xff\xfe")
+    from engine3d.base.plugins import discovery
+
+    discovery._found.cache_clear()
+    with pytest.warns(e3d.Engine3DWarning, match="metadata cannot be read"):
+        assert len(e3d.load_mesh(vox).faces) == 12

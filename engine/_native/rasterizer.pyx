@@ -551,36 +551,8 @@ cdef float *vectors_of(float[:, :, ::1] array, int width, int height, int channe
     return &array[0, 0, 0]
 
 
-def rasterize(
-    const float[:, ::1] clip not None,
-    const int32_t[:, ::1] faces not None,
-    int cull,
-    int backend,
-    int threads,
-    int32_t[:, ::1] face_id not None,
-    float[:, ::1] depth not None,
-    float[:, :, ::1] barycentric not None,
-):
-    """Draw clip-space triangles; the size is that of the output arrays."""
-    cdef int32_t height = <int32_t>face_id.shape[0], width = <int32_t>face_id.shape[1]
-    require(clip.shape[1] == 4, "clip must be (vertices, 4)")
-    require(faces.shape[1] == 3, "faces must be (faces, 3)")
-    require(width > 0 and height > 0, "an image has at least one pixel")
-    floats_of(depth, width, height)
-    vectors_of(barycentric, width, height, 3)
-    cdef const float *positions = &clip[0, 0] if clip.shape[0] else NULL
-    cdef const int32_t *indices = &faces[0, 0] if faces.shape[0] else NULL
-    cdef e3d_status status
-    with nogil:
-        status = e3d_rasterize(
-            positions, <int32_t>clip.shape[0], indices, <int32_t>faces.shape[0], width, height,
-            <e3d_cull>cull, <e3d_backend>backend, threads, &face_id[0, 0], &depth[0, 0],
-            &barycentric[0, 0, 0],
-        )
-    check(status)
-
-
 include "behind.pxi"
 include "bloom.pxi"
+include "clip_triangles.pxi"
 include "occlusion.pxi"
 include "shadow_ranges.pxi"

@@ -1,0 +1,13 @@
+"""A projection for matplotlib's 3-D axes: what they draw shares one depth buffer.
+
+``import engine3d.compat.matplotlib`` registers ``projection="engine3d"``. docs/matplotlib.md tells
+what it draws, and what it leaves to mplot3d. Needs the extra ``matplotlib``.
+"""
+
+from matplotlib.projections import register_projection
+
+from .axes import Axes3D
+
+__all__ = ["Axes3D"]
+
+register_projection(Axes3D)

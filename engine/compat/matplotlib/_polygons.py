@@ -1,0 +1,113 @@
+"""Polygons: Poly3DCollection, and patches made of straight lines.
+
+In: artists and the view. Out: triangles of their faces in the pile, then their edges.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.path import Path
+
+from ...io.reading.triangulation import triangulate
+from ._colors import codes_of, cycled
+from ._limits import hidden_points
+from ._lines import draw_runs
+from ._pile import Pile
+from ._view import View
+
+
+def colors_of(collection) -> tuple[np.ndarray, np.ndarray]:
+    """Return the colours of faces and edges of a Poly3DCollection, in the order of its polygons."""
+    collection.update_scalarmappable()
+    face, edge = collection._facecolor3d, collection._edgecolor3d
+    if collection._A is not None:
+        face = collection._facecolors if collection._face_is_mapped else face
+        edge = collection._edgecolors if collection._edge_is_mapped else edge
+    count = len(collection._faces)
+    # Other numbers of colours than of polygons: mplot3d takes the first.
+    return codes_of(face if len(face) == count else face[:1]), codes_of(edge)
+
+
+def vertex_count(collection) -> int:
+    return int(np.prod(collection._faces.shape[:2]))
+
+
+def draw_faces(pile: Pile, view: View, collection) -> None:
+    """Add the faces of a Poly3DCollection."""
+    faces, colors = collection._faces, colors_of(collection)[0]
+    count, corners = faces.shape[:2]
+    if not count or not len(colors) or not colors[:, 3].any():
+        return
+    sizes, points = _polygons_of(collection)
+    triangles = triangulate(sizes, points).corners
+    places = view.screen(points)
+    _drop_broken(places, sizes)
+    colors = colors[0] if len(colors) == 1 else np.repeat(colors, sizes, 0)
+    pile.add(places, colors, np.ascontiguousarray(triangles[::-1]))
+
+
+def draw_edges(pile: Pile, view: View, collection) -> None:
+    """Add the edges of a Poly3DCollection."""
+    edges = colors_of(collection)[1]
+    if not len(edges) or not edges[:, 3].any() or not np.any(collection.get_linewidth()):
+        return
+    sizes, points = _polygons_of(collection)
+    places = view.screen(points)
+    _drop_broken(places, sizes)
+    if getattr(collection, "_closed", True) or collection._codes3d is not None:
+        places, sizes = _closed(places, sizes)
+    draw_runs(pile, view, places, sizes, collection, edges)
+
+
+def _polygons_of(collection) -> tuple[np.ndarray, np.ndarray]:
+    """Return how many corners polygons have, and all corners, (V, 3); hidden ones are not a number."""
+    faces, codes = collection._faces, collection._codes3d
+    count, corners = faces.shape[:2]
+    sizes = np.full(count, corners)
+    points = faces.reshape(-1, 3)
+    invalid = np.broadcast_to(collection._invalid_vertices, (count, corners))
+    if codes is not None and len(codes):
+        ends = np.array([_length(one) for one in codes])
+        invalid = invalid | (np.arange(corners) >= ends[:, None])
+    if invalid.any():
+        sizes = (~invalid).sum(1)
+        points = points[~invalid.ravel()]
+    hidden = hidden_points(points, collection)
+    if hidden is not None and hidden.any():
+        points = points.copy()
+        points[hidden] = np.nan
+    return sizes, np.ascontiguousarray(points, float)
+
+
+def _length(codes) -> int:
+    """Return how many vertices of a path of lines are corners."""
+    codes = np.asarray(codes)
+    return len(codes) - int(codes[-1] == Path.CLOSEPOLY) if len(codes) else 0
+
+
+def is_plain(codes) -> bool:
+    """Return whether codes are those of one polygon: a start, lines, perhaps an end."""
+    codes = np.asarray(codes)
+    inner = codes[1:-1]
+    return bool(
+        len(codes) > 2
+        and codes[0] == Path.MOVETO
+        and (inner == Path.LINETO).all()
+        and codes[-1] in (Path.LINETO, Path.CLOSEPOLY)
+    )
+
+
+def _drop_broken(places: np.ndarray, sizes: np.ndarray) -> None:
+    """Make all corners of polygons with a hidden one not a number."""
+    bad = ~np.isfinite(places[:, 2])
+    if bad.any():
+        owner = np.repeat(np.arange(len(sizes)), sizes)
+        broken = np.zeros(len(sizes), bool)
+        broken[owner[bad]] = True
+        places[broken[owner]] = np.nan
+
+
+def _closed(places: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Repeat the first corner of each polygon at its end."""
+    ends, has_any = np.cumsum(sizes), sizes > 0
+    return np.insert(places, ends[has_any], places[(ends - sizes)[has_any]], 0), sizes + has_any

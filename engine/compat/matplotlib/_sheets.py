@@ -1,0 +1,118 @@
+"""What Agg draws and the depth buffer then hides: texts, and flat paths with curves or holes.
+
+In: artists and the view. Out: rectangles of pixels in the pile. A text stands upright at its place;
+a flat path lies in the plane of its points.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.path import Path
+from matplotlib.transforms import IdentityTransform
+
+from ._pile import Pile
+from ._view import View
+
+_FLAT = 1e-3  # pixels squared: a path seen from its edge has no area
+
+
+class Painter:
+    """A picture of the whole canvas, on which one thing at a time is painted."""
+
+    def __init__(self, figure, view: View) -> None:
+        self._size = int(figure.bbox.width), int(figure.bbox.height)
+        self._dpi, self._view = figure.dpi, view
+        self._renderer: RendererAgg | None = None
+
+    @property
+    def renderer(self) -> RendererAgg:
+        if self._renderer is None:
+            self._renderer = RendererAgg(*self._size, self._dpi)
+        return self._renderer
+
+    def taken(self) -> tuple[np.ndarray, int, int] | None:
+        """Return what was painted within the region, its left and its top; then wipe the canvas."""
+        region = self._view.region
+        pixels = np.asarray(self.renderer.buffer_rgba())
+        top = self._size[1] - region.bottom - region.height
+        rows = slice(max(top, 0), max(top + region.height, 0))
+        columns = slice(max(region.left, 0), max(region.left + region.width, 0))
+        inside = pixels[rows, columns]
+        used = inside[..., 3] > 0
+        found = None
+        if used.any():
+            y, x = np.flatnonzero(used.any(1)), np.flatnonzero(used.any(0))
+            cut = inside[y[0] : y[-1] + 1, x[0] : x[-1] + 1].copy()
+            found = cut, int(x[0]) + columns.start - region.left, int(y[0]) + rows.start - top
+        self.renderer.clear()
+        return found
+
+
+def draw_text(pile: Pile, view: View, text, painter: Painter) -> None:
+    """Add a Text3D: as deep as its place."""
+    place = view.screen(np.array([[float(v) for v in text.get_position_3d()]]))
+    if not np.isfinite(place).all():
+        return
+    text.draw(painter.renderer)
+    if (painted := painter.taken()) is not None:
+        pixels, left, top = painted
+        radius = 0.5 * float(min(pixels.shape[:2]))
+        depth = pile.lifted(place, np.array([radius]))[0, 2]
+        pile.add_picture(_corners(pixels, left, top, (depth, 0.0, 0.0)), pixels)
+
+
+def draw_path(pile: Pile, view: View, painter: Painter, places, codes, face, edge, width: float, hatch=None) -> None:
+    """Add a flat path.
+
+    Parameters
+    ----------
+    places : (N, 3) float64
+        On the screen.
+    codes : (N,) int or None
+        `Path.codes`.
+    face, edge : (4,) float
+        RGBA.
+    width : float
+        Of the edge, pixels.
+    """
+    plane = _plane_of(places)
+    if plane is None:
+        return
+    renderer, region = painter.renderer, view.region
+    page = places[:, :2] * (1.0, -1.0) + (region.left, region.bottom + region.height)
+    gc = renderer.new_gc()
+    gc.set_linewidth(width if edge[3] > 0 else 0.0)
+    gc.set_foreground(tuple(edge), isRGBA=True)
+    if hatch:
+        gc.set_hatch(hatch)
+        gc.set_hatch_color(tuple(edge))
+    renderer.draw_path(gc, Path(page, codes), IdentityTransform(), tuple(face) if face[3] > 0 else None)
+    gc.restore()
+    if (painted := painter.taken()) is not None:
+        pixels, left, top = painted
+        pile.add_picture(_corners(pixels, left, top, plane), pixels)
+
+
+def _plane_of(places: np.ndarray) -> tuple[float, float, float] | None:
+    """Return a plane through points, depth = a + b x + c y; None where it is seen from its edge."""
+    places = places[np.isfinite(places).all(1)]
+    if len(places) < 3:
+        return None
+    origin = places[0]
+    away = places - origin
+    far = away[np.argmax(away[:, 0] ** 2 + away[:, 1] ** 2)]
+    areas = far[0] * away[:, 1] - far[1] * away[:, 0]
+    side = away[np.argmax(np.abs(areas))]
+    area = far[0] * side[1] - far[1] * side[0]
+    if abs(area) < _FLAT:
+        return None
+    across = (far[2] * side[1] - side[2] * far[1]) / area
+    down = (far[0] * side[2] - side[0] * far[2]) / area
+    return float(origin[2] - across * origin[0] - down * origin[1]), float(across), float(down)
+
+
+def _corners(pixels: np.ndarray, left: int, top: int, plane: tuple[float, float, float]) -> np.ndarray:
+    height, width = pixels.shape[:2]
+    x, y = np.array([0, width, 0, width]) + float(left), np.array([0, 0, height, height]) + float(top)
+    return np.stack([x, y, plane[0] + plane[1] * x + plane[2] * y], 1)

@@ -88,7 +88,7 @@ def _against_segments(artist) -> str | None:
 def _against_contours(artist) -> str | None:
     if isinstance(artist, LineCollection) or len(artist.get_offsets()) > 1:
         return "its paths are moved"
-    return "it is hatched" if artist.get_hatch() or getattr(artist, "hatches", [None]) != [None] else None
+    return "it is hatched" if artist.get_hatch() or any(getattr(artist, "hatches", ())) else None
 
 
 def _against_line(artist) -> str | None:

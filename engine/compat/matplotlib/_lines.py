@@ -68,7 +68,7 @@ def draw_lines(
     places = pile.lifted_lines(places, runs, 0.5 * widths)
     stroked = stroke(places[:, :2], runs, closes, pen.cap, pen.join)
     corners = edge_of(stroked, places, 0.5 * widths)
-    pile.add(corners, colors[stroked.point], np.ascontiguousarray(stroked.triangles[::-1]))
+    pile.add(corners, colors[stroked.point], stroked.triangles[::-1])
 
 
 def _closes(places: np.ndarray, runs: np.ndarray) -> np.ndarray:
@@ -125,11 +125,16 @@ def _draw_markers_of(pile: Pile, view: View, line, places: np.ndarray) -> None:
     halves = [(marker.get_path(), marker.get_transform(), face)]
     if marker.get_alt_path():
         halves.append((marker.get_alt_path(), marker.get_alt_transform(), other))
-    cap, join = str(marker.get_capstyle().name), str(marker.get_joinstyle().name)
+    cap, join = _word(marker.get_capstyle()), _word(marker.get_joinstyle())
     for path, transform, color in reversed(halves):
         shapes = shapes_of(path, transform, size, cap, join)
         faces, edges = (cycled(codes_of([one]), len(places)) for one in (color, edge))
         draw_markers(pile, view, shapes, places, np.array(size), np.array(width), faces, edges)
+
+
+def _word(style) -> str:
+    """Return the name of a cap or join, which may be an enumeration."""
+    return str(getattr(style, "value", style))
 
 
 def _every(line, places: np.ndarray) -> np.ndarray:
@@ -163,7 +168,7 @@ def draw_runs(pile: Pile, view: View, places: np.ndarray, sizes: np.ndarray, col
     styles = collection._linestyles
     for k, (start, dashes) in reversed(list(enumerate(styles))):
         pick = slice(None) if len(styles) == 1 else number % len(styles) == k
-        pen = Pen(str(cap), str(join), start, None if dashes is None else tuple(dashes))
+        pen = Pen(_word(cap), _word(join), start, None if dashes is None else tuple(dashes))
         of = number[pick]
         draw_lines(pile, view, places[pick], of, widths[of], colors[of], pen)
 

@@ -86,7 +86,7 @@ class Picture(martist.Artist):
         for number, (artist, kind) in enumerate(drawn):
             if kind == "polygons":
                 pile.begin(2 * number)
-                draw_faces(pile, view, artist)
+                draw_faces(pile, artist)
         others = [one for one in drawn if one.kind != "polygons" or _has_edges(one.artist)]
         if others:
             pile.end_surfaces()

@@ -15,7 +15,7 @@ from ._view import View
 
 SAMPLES = 16  # a pixel
 _LIFT = 0.002  # of the scene's depth: how much nearer lines and markers are than surfaces
-_CHUNK = 1 << 18  # vertices that are turned to float32 at a time
+_CHUNK = 1 << 14  # vertices that are projected at a time, so that they stay in the cache
 _OPAQUE, _BLENDED, _TEXTURED = 0, 1, 2
 
 
@@ -89,43 +89,67 @@ class Pile:
         faces : (F, 3) int32
             Of equal depth, earlier ones show.
         """
-        first = self._take(places, colors)
-        alpha = np.broadcast_to(colors[..., 3], len(places))[faces[:, 0]]
-        looks = np.where(alpha == 255, _OPAQUE, _BLENDED).astype(np.int32)
-        if not alpha.all():
-            faces, looks = faces[alpha > 0], looks[alpha > 0]
-        self._put(faces + np.int32(first), looks)
+        first = self._take(len(places), colors)
+        self._view.clip(places, self._clip[first : self._used])
+        self._put(faces, first, colors)
+
+    def add_polygons(self, points: np.ndarray, sizes: np.ndarray, colors: np.ndarray, faces: np.ndarray) -> None:
+        """The same of polygons in data coordinates, so many corners each; one with a corner that is not finite is left out."""
+        first = self._take(len(points), colors)
+        clip = self._clip[first : self._used]
+        for k in range(0, len(points), _CHUNK):
+            self._view.clip(self._view.screen(points[k : k + _CHUNK]), clip[k : k + _CHUNK])
+        drop_broken(clip, sizes)
+        self._put(faces, first, colors)
 
     def add_picture(self, corners: np.ndarray, pixels: np.ndarray) -> None:
         """Add a rectangle of pixels, (H, W, 4) uint8, between four corners, (4, 3), left top, right top, left bottom, right bottom."""
-        first = self._take(corners, np.full(4, 255, np.uint8))
+        white = np.full(4, 255, np.uint8)
+        first = self._take(4, white)
+        self._view.clip(corners, self._clip[first : self._used])
         uvs = np.array([[0, 1], [1, 1], [0, 0], [1, 0]], np.float32)
         self._textured.append((first, uvs))
-        faces = np.array([[0, 1, 2], [1, 3, 2]], np.int32) + np.int32(first)
-        self._put(faces, np.full(2, _TEXTURED + len(self._textures), np.int32))
+        faces = np.array([[0, 1, 2], [1, 3, 2]], np.int32)
+        self._put(faces, first, white, _TEXTURED + len(self._textures))
         self._textures.append(pixels)
 
-    def _take(self, places: np.ndarray, colors: np.ndarray) -> int:
-        first, self._used = self._used, self._used + len(places)
+    def _take(self, count: int, colors: np.ndarray) -> int:
+        """Make room for vertices of given colours; return the number of the first."""
+        first, self._used = self._used, self._used + count
         if self._used > len(self._clip):
             room = max(self._used, 2 * len(self._clip))
             self._clip = np.append(self._clip[:first], np.empty((room - first, 4), np.float32), 0)
             self._colors = np.append(self._colors[:first], np.empty((room - first, 4), np.uint8), 0)
-        for k in range(0, len(places), _CHUNK):
-            chunk = places[k : k + _CHUNK]
-            self._view.clip(chunk, self._clip[first + k : first + k + len(chunk)])
         self._colors[first : self._used] = colors
         return first
 
-    def _put(self, faces: np.ndarray, looks: np.ndarray) -> None:
-        self._faces.setdefault(self._artist, []).append((faces, looks))
+    def _put(self, faces: np.ndarray, first: int, colors: np.ndarray, look: int = 0) -> None:
+        """Add faces, whose corners are counted from the first."""
+        if look:
+            looks = np.full(len(faces), look, np.int32)
+        else:
+            alpha = np.broadcast_to(colors[..., 3], self._used - first)[faces[:, 0]]
+            looks = np.where(alpha == 255, _OPAQUE, _BLENDED).astype(np.int32)
+            if not alpha.all():
+                faces, looks = faces[alpha > 0], looks[alpha > 0]
+        self._faces.setdefault(self._artist, []).append((faces + np.int32(first), looks))
+
+    def _take_faces(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return all faces and what they look like, those that show at one depth first; let go of the parts."""
+        total = sum(len(faces) for parts in self._faces.values() for faces, _ in parts)
+        faces, looks, used = np.empty((total, 3), np.int32), np.empty(total, np.int32), 0
+        for artist in sorted(self._faces, reverse=True):
+            for part, look in self._faces.pop(artist):
+                faces[used : used + len(part)], looks[used : used + len(part)] = part, look
+                used += len(part)
+        return faces, looks
 
     def draw(self) -> np.ndarray | None:
-        """Return the picture, (H, W, 4) uint8, straight alpha, top row first; None if it is empty."""
-        parts = [part for artist in sorted(self._faces, reverse=True) for part in self._faces[artist]]
-        if not parts:
+        """Return the picture, (H, W, 4) uint8, straight alpha, top row first; None if it is empty. Once."""
+        if not self._faces:
             return None
-        faces, looks = (np.concatenate(one) for one in zip(*parts, strict=True))
+        self._surfaces = None
+        faces, looks = self._take_faces()
         uvs = None
         if self._textured:
             uvs = np.zeros((self._used, 2), np.float32)
@@ -144,3 +168,13 @@ class Pile:
 def _texture(pixels: np.ndarray):
     nearest, clamp = _native.FILTERS["nearest"], _native.WRAPS["clamp"]
     return _native.NativeTexture(np.ascontiguousarray(pixels), False, nearest, clamp, clamp, 1, 0.0, False)
+
+
+def drop_broken(places: np.ndarray, sizes: np.ndarray) -> None:
+    """Make all corners of polygons not a number where one of them is."""
+    bad = ~np.isfinite(places[:, 2])
+    if bad.any():
+        owner = np.repeat(np.arange(len(sizes)), sizes)
+        broken = np.zeros(len(sizes), bool)
+        broken[owner[bad]] = True
+        places[broken[owner]] = np.nan

@@ -12,7 +12,7 @@ from ...io.reading.triangulation import triangulate
 from ._colors import codes_of, cycled
 from ._limits import hidden_points
 from ._lines import draw_runs
-from ._pile import Pile
+from ._pile import Pile, drop_broken
 from ._view import View
 
 
@@ -32,7 +32,7 @@ def vertex_count(collection) -> int:
     return int(np.prod(collection._faces.shape[:2]))
 
 
-def draw_faces(pile: Pile, view: View, collection) -> None:
+def draw_faces(pile: Pile, collection) -> None:
     """Add the faces of a Poly3DCollection."""
     faces, colors = collection._faces, colors_of(collection)[0]
     count, corners = faces.shape[:2]
@@ -40,10 +40,8 @@ def draw_faces(pile: Pile, view: View, collection) -> None:
         return
     sizes, points = _polygons_of(collection)
     triangles = triangulate(sizes, points).corners
-    places = view.screen(points)
-    _drop_broken(places, sizes)
     colors = colors[0] if len(colors) == 1 else np.repeat(colors, sizes, 0)
-    pile.add(places, colors, np.ascontiguousarray(triangles[::-1]))
+    pile.add_polygons(points, sizes, colors, triangles[::-1])
 
 
 def draw_edges(pile: Pile, view: View, collection) -> None:
@@ -53,7 +51,7 @@ def draw_edges(pile: Pile, view: View, collection) -> None:
         return
     sizes, points = _polygons_of(collection)
     places = view.screen(points)
-    _drop_broken(places, sizes)
+    drop_broken(places, sizes)
     if getattr(collection, "_closed", True) or collection._codes3d is not None:
         places, sizes = _closed(places, sizes)
     draw_runs(pile, view, places, sizes, collection, edges)
@@ -95,16 +93,6 @@ def is_plain(codes) -> bool:
         and (inner == Path.LINETO).all()
         and codes[-1] in (Path.LINETO, Path.CLOSEPOLY)
     )
-
-
-def _drop_broken(places: np.ndarray, sizes: np.ndarray) -> None:
-    """Make all corners of polygons with a hidden one not a number."""
-    bad = ~np.isfinite(places[:, 2])
-    if bad.any():
-        owner = np.repeat(np.arange(len(sizes)), sizes)
-        broken = np.zeros(len(sizes), bool)
-        broken[owner[bad]] = True
-        places[broken[owner]] = np.nan
 
 
 def _closed(places: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 from matplotlib import artist as martist
 from matplotlib import cbook
-from mpl_toolkits.mplot3d import axes3d
+from matplotlib import colors as mcolors
+from mpl_toolkits.mplot3d import art3d, axes3d
 
 from ...errors import warn
+from ._blocks import Voxels, bar_polygons, colors_at, voxel_faces
 from ._known import kind_of, looks_solid, reason_against
 from ._picture import Drawn, Picture
 
@@ -49,6 +52,62 @@ class Axes3D(axes3d.Axes3D):
             else:
                 drawn.append(Drawn(artist, kind))
         return drawn, others
+
+    def bar3d(self, x, y, z, dx, dy, dz, color=None, zsort="average", shade=True, lightsource=None, *args, **kwargs):
+        """Draw boxes; see `mpl_toolkits.mplot3d.axes3d.Axes3D.bar3d`."""
+        plain = (x, y, z, dx, dy, dz)
+        if args or "data" in kwargs or not all(np.ndim(one) < 2 for one in plain):
+            return super().bar3d(*plain, color, zsort, shade, lightsource, *args, **kwargs)
+        had_data = self.has_data()
+        arrays = np.broadcast_arrays(np.atleast_1d(x), *plain[1:])
+        low, size = np.stack(arrays[:3], -1).astype(float), np.stack(arrays[3:], -1).astype(float)
+        given = [self._get_patches_for_fill.get_next_color()] if color is None else color
+        rgba = mcolors.to_rgba_array(given)
+        if len(rgba) not in (1, len(low)) or not len(low):
+            return super().bar3d(*plain, given, zsort, shade, lightsource, **kwargs)
+        faces = np.repeat(rgba, 6 * len(low) // len(rgba), 0)
+        bars = art3d.Poly3DCollection(
+            bar_polygons(low, size), zsort=zsort, facecolors=faces, shade=shade, lightsource=lightsource, **kwargs
+        )
+        self.add_collection3d(bars, autolim=False)
+        high = low + size
+        self.auto_scale_xyz(*((low[:, k].min(), high[:, k].max()) for k in range(3)), had_data)
+        return bars
+
+    def voxels(self, *args, facecolors=None, edgecolors=None, shade=True, lightsource=None, **kwargs):
+        """Draw voxels; see `mpl_toolkits.mplot3d.axes3d.Axes3D.voxels`.
+
+        They are one collection until one of the returned polygons is asked for; then each is its own.
+        """
+        xyz, filled = (args[:3], args[3]) if len(args) == 4 else (None, args[0] if len(args) == 1 else None)
+        if np.ndim(filled) != 3:
+            return super().voxels(
+                *args, facecolors=facecolors, edgecolors=edgecolors, shade=shade, lightsource=lightsource, **kwargs
+            )
+        filled = np.asarray(filled, bool)
+        if facecolors is None:
+            facecolors = self._get_patches_for_fill.get_next_color()
+        shape = tuple(side + 1 for side in filled.shape)
+        grid = np.indices(shape) if xyz is None else [np.broadcast_to(one, shape) for one in xyz]
+        self.auto_scale_xyz(*grid)
+        voxel, corners = voxel_faces(filled)
+        at = tuple(np.moveaxis(corners, -1, 0))
+        polygons = np.stack([one[at] for one in grid], -1).astype(float)
+        faces = colors_at(facecolors, voxel, filled.shape)
+        edges = None if edgecolors is None else colors_at(edgecolors, voxel, filled.shape)
+
+        def spread(first: int, last: int) -> art3d.Poly3DCollection:
+            part = slice(first, last)
+            colors = {} if edges is None else {"edgecolors": edges[part]}
+            return art3d.Poly3DCollection(
+                polygons[part], facecolors=faces[part], shade=shade, lightsource=lightsource, **colors, **kwargs
+            )
+
+        whole = None
+        if len(voxel):
+            whole = spread(0, len(voxel))
+            self.add_collection3d(whole)
+        return Voxels(self, whole, voxel, spread)
 
     def pick(self, mouseevent) -> None:
         """Let artists be picked; see `matplotlib.artist.Artist.pick`."""

@@ -30,7 +30,8 @@ def draw_contours(pile: Pile, view: View, collection, painter: Painter) -> None:
     edges = cycled(codes_of(collection.get_edgecolor()), len(paths))
     lines: list[np.ndarray] = []
     owners: list[int] = []
-    for k, (vertices, codes) in enumerate(paths):
+    has_lines = edges[:, 3].any() and np.any(collection.get_linewidth())
+    for k, (vertices, codes) in enumerate(paths if has_lines else ()):
         places = view.screen(shown_points(np.asarray(vertices, float), collection))
         lines += [_ring(one) for one in outlines_of(places, codes, _STEPS)]
         owners += [k] * (len(lines) - len(owners))

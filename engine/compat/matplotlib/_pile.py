@@ -16,7 +16,7 @@ from ._view import View
 SAMPLES = 16  # a pixel
 _LIFT = 0.002  # of the scene's depth: how much nearer lines and markers are than surfaces
 _CHUNK = 1 << 14  # vertices that are projected at a time, so that they stay in the cache
-_OPAQUE, _BLENDED, _TEXTURED = 0, 1, 2
+_TEXTURED = 2  # how faces look: 0 opaque, 1 blended, 2 and more by a texture
 
 
 class Pile:
@@ -93,13 +93,16 @@ class Pile:
         self._view.clip(places, self._clip[first : self._used])
         self._put(faces, first, colors)
 
-    def add_polygons(self, points: np.ndarray, sizes: np.ndarray, colors: np.ndarray, faces: np.ndarray) -> None:
-        """The same of polygons in data coordinates, so many corners each; one with a corner that is not finite is left out."""
+    def add_polygons(
+        self, points: np.ndarray, faces: np.ndarray, colors: np.ndarray, sizes: np.ndarray | None = None
+    ) -> None:
+        """The same with points in data coordinates; of polygons of given sizes, one with a bad corner is left out."""
         first = self._take(len(points), colors)
         clip = self._clip[first : self._used]
         for k in range(0, len(points), _CHUNK):
             self._view.clip(self._view.screen(points[k : k + _CHUNK]), clip[k : k + _CHUNK])
-        drop_broken(clip, sizes)
+        if sizes is not None:
+            drop_broken(clip, sizes)
         self._put(faces, first, colors)
 
     def add_picture(self, corners: np.ndarray, pixels: np.ndarray) -> None:
@@ -128,8 +131,8 @@ class Pile:
         if look:
             looks = np.full(len(faces), look, np.int32)
         else:
-            alpha = np.broadcast_to(colors[..., 3], self._used - first)[faces[:, 0]]
-            looks = np.where(alpha == 255, _OPAQUE, _BLENDED).astype(np.int32)
+            alpha = colors[faces[:, 0], 3] if colors.ndim == 2 else np.broadcast_to(colors[3], len(faces))
+            looks = (alpha != 255).astype(np.int32)
             if not alpha.all():
                 faces, looks = faces[alpha > 0], looks[alpha > 0]
         self._faces.setdefault(self._artist, []).append((faces + np.int32(first), looks))

@@ -29,6 +29,10 @@ def colors_of(collection) -> tuple[np.ndarray, np.ndarray]:
 
 
 def vertex_count(collection) -> int:
+    """Return about how many vertices `draw_faces` adds."""
+    grid = getattr(collection, "_engine3d_grid", None)
+    if grid is not None and len(collection._facecolor3d) == 1 and collection._A is None:
+        return int(np.prod(grid[1]))
     return int(np.prod(collection._faces.shape[:2]))
 
 
@@ -38,10 +42,38 @@ def draw_faces(pile: Pile, collection) -> None:
     count, corners = faces.shape[:2]
     if not count or not len(colors) or not colors[:, 3].any():
         return
+    if len(colors) == 1 and (grid := _grid_of(collection)) is not None:
+        pile.add_polygons(*grid, colors[0])
+        return
     sizes, points = _polygons_of(collection)
     triangles = triangulate(sizes, points).corners
     colors = colors[0] if len(colors) == 1 else np.repeat(colors, sizes, 0)
-    pile.add_polygons(points, sizes, colors, triangles[::-1])
+    pile.add_polygons(points, triangles[::-1], colors, sizes)
+
+
+def remember_grid(surface, shape: tuple[int, ...]) -> None:
+    """Note that a surface has all cells of a grid, of so many rows and columns of points, in order."""
+    rows, columns = shape
+    faces = surface._faces
+    if faces.shape == ((rows - 1) * (columns - 1), 4, 3) and not np.any(surface._invalid_vertices):
+        surface._engine3d_grid = faces, shape
+
+
+def _grid_of(surface) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return the points of a surface's grid, (V, 3), and triangles; None if it has none, or hidden points."""
+    faces, shape = getattr(surface, "_engine3d_grid", (None, (0, 0)))
+    if faces is not surface._faces or faces is None or hidden_points(faces[:1], surface) is not None:
+        return None
+    rows, columns = shape
+    cells, points = faces.reshape(rows - 1, columns - 1, 4, 3), np.empty((rows, columns, 3))
+    points[:-1, :-1] = cells[:, :, 0]
+    points[:-1, -1], points[-1, -1], points[-1, :-1] = cells[:, -1, 1], cells[-1, -1, 2], cells[-1, :, 3]
+    number = np.arange(rows * columns, dtype=np.int32).reshape(shape)
+    triangles = np.empty((rows - 1, columns - 1, 2, 3), np.int32)
+    triangles[..., 0], triangles[..., 0, 1] = number[:-1, :-1, None], number[:-1, 1:]
+    triangles[..., 0, 2] = triangles[..., 1, 1] = number[1:, 1:]
+    triangles[..., 1, 2] = number[1:, :-1]
+    return points.reshape(-1, 3), triangles.reshape(-1, 3)[::-1]
 
 
 def draw_edges(pile: Pile, view: View, collection) -> None:

@@ -14,6 +14,7 @@ from matplotlib.transforms import IdentityTransform
 from ._pile import Pile
 from ._view import View
 
+_MARGIN = 24.0  # pixels: how far lines reach beyond a path
 _FLAT = 1e-3  # pixels squared: a path seen from its edge has no area
 
 
@@ -31,21 +32,23 @@ class Painter:
             self._renderer = RendererAgg(*self._size, self._dpi)
         return self._renderer
 
-    def taken(self) -> tuple[np.ndarray, int, int] | None:
-        """Return what was painted within the region, its left and its top; then wipe the canvas."""
-        region = self._view.region
-        pixels = np.asarray(self.renderer.buffer_rgba())
-        top = self._size[1] - region.bottom - region.height
-        rows = slice(max(top, 0), max(top + region.height, 0))
-        columns = slice(max(region.left, 0), max(region.left + region.width, 0))
-        inside = pixels[rows, columns]
+    def taken(self, box=(0.0, 0.0, np.inf, np.inf)) -> tuple[np.ndarray, int, int] | None:
+        """Return what was painted within the region, its left and its top; then wipe the canvas.
+
+        box : what was painted lies within, but for a few pixels: left, bottom, right, top.
+        """
+        region, height = self._view.region, self._size[1]
+        left, right = max(region.left, box[0] - _MARGIN, 0), min(region.left + region.width, box[2] + _MARGIN)
+        bottom, top = max(region.bottom, box[1] - _MARGIN, 0), min(region.bottom + region.height, box[3] + _MARGIN)
+        pixels, found = np.asarray(self.renderer.buffer_rgba()), None
+        inside = pixels[max(height - int(top), 0) : height - int(bottom), int(left) : max(int(right), 0)]
         used = inside[..., 3] > 0
-        found = None
         if used.any():
             y, x = np.flatnonzero(used.any(1)), np.flatnonzero(used.any(0))
             cut = inside[y[0] : y[-1] + 1, x[0] : x[-1] + 1].copy()
-            found = cut, int(x[0]) + columns.start - region.left, int(y[0]) + rows.start - top
-        self.renderer.clear()
+            first = max(height - int(top), 0) - (height - region.bottom - region.height)
+            found = cut, int(x[0]) + int(left) - region.left, int(y[0]) + first
+        pixels[:] = 0
         return found
 
 
@@ -89,7 +92,8 @@ def draw_path(pile: Pile, view: View, painter: Painter, places, codes, face, edg
         gc.set_hatch_color(tuple(edge))
     renderer.draw_path(gc, Path(page, codes), IdentityTransform(), tuple(face) if face[3] > 0 else None)
     gc.restore()
-    if (painted := painter.taken()) is not None:
+    finite = page[np.isfinite(page).all(1)]
+    if (painted := painter.taken((*finite.min(0), *finite.max(0)))) is not None:
         pixels, left, top = painted
         pile.add_picture(_corners(pixels, left, top, plane), pixels)
 

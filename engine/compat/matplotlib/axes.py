@@ -12,6 +12,7 @@ from ...errors import warn
 from ._blocks import Voxels, bar_polygons, colors_at, voxel_faces
 from ._known import kind_of, looks_solid, reason_against
 from ._picture import Drawn, Picture
+from ._polygons import remember_grid
 
 
 class Axes3D(axes3d.Axes3D):
@@ -52,6 +53,12 @@ class Axes3D(axes3d.Axes3D):
             else:
                 drawn.append(Drawn(artist, kind))
         return drawn, others
+
+    def plot_surface(self, X, Y, Z, **kwargs):
+        """Draw a surface; see `mpl_toolkits.mplot3d.axes3d.Axes3D.plot_surface`."""
+        surface = super().plot_surface(X, Y, Z, **kwargs)
+        remember_grid(surface, np.broadcast(X, Y, Z).shape)
+        return surface
 
     def bar3d(self, x, y, z, dx, dy, dz, color=None, zsort="average", shade=True, lightsource=None, *args, **kwargs):
         """Draw boxes; see `mpl_toolkits.mplot3d.axes3d.Axes3D.bar3d`."""

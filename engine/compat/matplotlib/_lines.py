@@ -82,9 +82,15 @@ def _closes(places: np.ndarray, runs: np.ndarray) -> np.ndarray:
     return np.repeat(same & ~broken, sizes)
 
 
+def points_of(line) -> np.ndarray:
+    """Return the points of a Line3D, (N, 3); masked ones are not a number."""
+    xyz = [np.ma.filled(np.ma.asarray(one, float), np.nan) for one in line.get_data_3d()]
+    return np.stack(np.broadcast_arrays(*xyz), -1)
+
+
 def draw_line(pile: Pile, view: View, line) -> None:
     """Add a Line3D; its markers lie on it."""
-    points = shown_points(np.stack(np.broadcast_arrays(*line.get_data_3d()), -1).astype(float), line)
+    points = shown_points(points_of(line), line)
     places = view.screen(points)
     _draw_markers_of(pile, view, line, places)
     if line.get_linestyle() in ("None", "none", " ", "") or not line.get_linewidth() > 0:
@@ -175,7 +181,7 @@ def draw_runs(pile: Pile, view: View, places: np.ndarray, sizes: np.ndarray, col
 
 def project_line(line) -> None:
     """Give a line its places on the page, so that it can be picked."""
-    points = shown_points(np.stack(np.broadcast_arrays(*line.get_data_3d()), -1).astype(float), line)
+    points = shown_points(points_of(line), line)
     if len(points):
         xs, ys, _, _ = proj3d._scale_proj_transform_clip(*points.T, line.axes)
         line.set_data(xs, ys)

@@ -11,12 +11,12 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib import artist as martist
 
-from ._known import SURFACES, is_clipped
-from ._lines import draw_line, draw_line_collection, project_line
+from ._known import is_clipped
+from ._lines import draw_line, draw_line_collection, points_of, project_line
 from ._paths import draw_contours, draw_patch, draw_scatter
 from ._pile import Pile
 from ._polygons import draw_edges, draw_faces, vertex_count
-from ._sheets import Painter, draw_text
+from ._sheets import Painter, draw_texts
 from ._view import Region, View
 
 
@@ -39,6 +39,7 @@ class Picture(martist.Artist):
         self.set_rasterized(True)
         # In the order of painting, which decides at one depth.
         self._drawn = sorted(drawn, key=lambda one: one.artist.get_zorder())
+        self.texts: list = []
 
     @martist.allow_rasterization
     def draw(self, renderer) -> None:
@@ -49,8 +50,8 @@ class Picture(martist.Artist):
         inside = _box_of(axes)
         free = [one for one in self._drawn if not is_clipped(one.artist)]
         if free:
-            self._blit(renderer, self._canvas(), free, spared=inside)
-        self._blit(renderer, inside, self._drawn)
+            self._show(renderer, self._canvas(), free, spared=inside)
+        self.texts = self._show(renderer, inside, self._drawn)
         for artist, _ in self._drawn:
             artist.stale = False
 
@@ -58,43 +59,77 @@ class Picture(martist.Artist):
         box = self.get_figure(root=True).bbox
         return Region(0, 0, int(box.width), int(box.height))
 
-    def _blit(self, renderer, region: Region, drawn: list[Drawn], spared: Region | None = None) -> None:
-        pixels = self._pixels(region, drawn) if min(region.width, region.height) > 0 else None
+    def _show(self, renderer, region: Region, drawn: list[Drawn], spared: Region | None = None) -> list:
+        """Put the picture of a region on the canvas; return the texts that are left to be written.
+
+        ``spared`` is left out, and where all lies within, nothing is drawn.
+        """
+        if min(region.width, region.height) <= 0 or (view := self._view(region)) is None:
+            return []
+        pile = Pile(view, sum(vertex_count(artist) for artist, kind in drawn if kind == "polygons"))
+        texts = self._collect(pile, view, drawn)
+        if spared is not None and _within(pile.bounds(), region, spared):
+            return texts
+        pixels = pile.draw()
         if pixels is None:
-            return
+            return texts
         if spared is not None:
             bottom = region.height - spared.bottom
             rows = slice(max(bottom - spared.height, 0), max(bottom, 0))
             pixels[rows, max(spared.left, 0) : max(spared.left + spared.width, 0)] = 0
-            used = pixels[..., 3] > 0
-            if not used.any():
-                return
         gc = renderer.new_gc()
         # Images are handed over from the lowest row up.
         renderer.draw_image(gc, region.left, region.bottom, np.ascontiguousarray(pixels[::-1]))
         gc.restore()
+        return texts
 
-    def _pixels(self, region: Region, drawn: list[Drawn]) -> np.ndarray | None:
-        """Return the picture of a region, (H, W, 4) uint8; None if nothing shows."""
+    def _view(self, region: Region) -> View | None:
+        """Return the view of a region; None if there is nothing to see."""
         bounds = [box for one in self._drawn if (box := _bounds_of(*one)) is not None]
         if not bounds:
             return None
         low, high = np.min([box[0] for box in bounds], 0), np.max([box[1] for box in bounds], 0)
-        view = View(self.axes, region, low, high)
+        return View(self.axes, region, low, high)
+
+    def _collect(self, pile: Pile, view: View, drawn: list[Drawn]) -> list:
+        """Add artists to a pile; return the texts that nothing hides."""
         painter = Painter(self.get_figure(root=True), view)
-        pile = Pile(view, sum(vertex_count(artist) for artist, kind in drawn if kind == "polygons"))
         for number, (artist, kind) in enumerate(drawn):
             if kind == "polygons":
                 pile.begin(2 * number)
                 draw_faces(pile, artist)
-        others = [one for one in drawn if one.kind != "polygons" or _has_edges(one.artist)]
-        if others:
+        if any(kind != "polygons" or _has_edges(artist) for artist, kind in drawn):
             pile.end_surfaces()
         for number, (artist, kind) in enumerate(drawn):
-            # Edges lie over faces.
-            pile.begin(2 * number + 1)
-            _DRAW[kind](pile, view, artist, painter)
-        return pile.draw()
+            if kind != "text":
+                # Edges lie over faces.
+                pile.begin(2 * number + 1)
+                _DRAW[kind](pile, view, artist, painter)
+        texts = [(2 * number + 1, artist) for number, (artist, kind) in enumerate(drawn) if kind == "text"]
+        return draw_texts(pile, view, texts, painter)
+
+
+class Words(martist.Artist):
+    """Writes the texts that nothing in the picture hides; in vector files they stay text."""
+
+    zorder = 0
+
+    def __init__(self, picture: Picture) -> None:
+        super().__init__()
+        self.set_figure(picture.get_figure(root=False))
+        self._picture = picture
+
+    @martist.allow_rasterization
+    def draw(self, renderer) -> None:
+        for text in self._picture.texts:
+            text.draw(renderer)
+
+
+def _within(bounds: tuple[float, float, float, float], region: Region, box: Region) -> bool:
+    """Return whether bounds, counted from a region's left top, lie within a box of the canvas."""
+    left, top, right, bottom = bounds
+    first, last = box.left - region.left, region.bottom + region.height - box.bottom
+    return first <= left and right <= first + box.width and last - box.height <= top and bottom <= last
 
 
 def _box_of(axes) -> Region:
@@ -153,7 +188,7 @@ _POINTS: dict[str, Callable] = {
     "segments": _segment_points,
     "scatter": lambda artist: np.stack([np.ma.filled(np.ma.asarray(v, float), np.nan) for v in artist._offsets3d], -1),
     "contours": lambda artist: np.concatenate([vs for vs, _ in artist._3dverts_codes] or [np.empty((0, 3))]),
-    "line": lambda artist: np.stack(np.broadcast_arrays(*artist.get_data_3d()), -1),
+    "line": points_of,
     "patch": lambda artist: artist._segment3d,
     "text": lambda artist: artist.get_position_3d(),
 }
@@ -165,6 +200,4 @@ _DRAW: dict[str, Callable] = {
     "contours": draw_contours,
     "line": lambda pile, view, artist, painter: draw_line(pile, view, artist),
     "patch": draw_patch,
-    "text": draw_text,
 }
-assert set(_DRAW) == set(_POINTS) >= set(SURFACES)

@@ -14,6 +14,7 @@ from ._resting import Surfaces
 from ._view import View
 
 SAMPLES = 16  # a pixel
+_MANY, _FEWER_SAMPLES = 1 << 20, 8  # of so many triangles, whose edges are mostly inside of surfaces
 _LIFT = 0.002  # of the scene's depth: how much nearer lines and markers are than surfaces
 _CHUNK = 1 << 14  # vertices that are projected at a time, so that they stay in the cache
 _TEXTURED = 2  # how faces look: 0 opaque, 1 blended, 2 and more by a texture
@@ -47,10 +48,27 @@ class Pile:
 
     def end_surfaces(self) -> None:
         """Remember what was added as the surfaces that others may lie on."""
-        lists = self._faces.values()
-        if self._used and lists:
-            faces = np.concatenate([faces for parts in lists for faces, _ in parts])
-            self._surfaces = Surfaces(self._view.region, self._clip[: self._used], faces)
+        if self._faces:
+            self._surfaces = self._seen()
+
+    def _seen(self) -> Surfaces:
+        faces = np.concatenate([faces for parts in self._faces.values() for faces, _ in parts])
+        return Surfaces(self._view.region, self._clip[: self._used], faces)
+
+    def depths(self) -> np.ndarray:
+        """Return the depth of what shows at each pixel so far, (H, W) float32; infinite where nothing does."""
+        region = self._view.region
+        return self._seen().depth if self._faces else np.full((region.height, region.width), np.inf, np.float32)
+
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Return left, top, right and bottom of all that was added, pixels of the region."""
+        region, clip = self._view.region, self._clip[: self._used]
+        x, y = (clip[:, k][np.isfinite(clip[:, k])] for k in (0, 1))
+        if not x.size:
+            return 0.0, 0.0, 0.0, 0.0
+        left, right = (0.5 * (1.0 + float(one)) * region.width for one in (x.min(), x.max()))
+        top, bottom = (0.5 * (1.0 - float(one)) * region.height for one in (y.max(), y.min()))
+        return left, top, right, bottom
 
     def lifted(self, places: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """Return places of markers, nearer: those on surfaces by as much as surfaces rise round them."""
@@ -162,7 +180,7 @@ class Pile:
         out = np.empty((region.height, region.width, 4), np.uint8)
         _native.draw_clip(
             *(self._clip[: self._used], self._colors[: self._used], faces, looks, uvs),
-            *([_texture(pixels) for pixels in self._textures], SAMPLES),
+            *([_texture(pixels) for pixels in self._textures], SAMPLES if len(faces) <= _MANY else _FEWER_SAMPLES),
             *(resolve_backend(), resolve_threads(), out),
         )
         return out

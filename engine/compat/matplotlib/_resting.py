@@ -25,10 +25,10 @@ class Surfaces:
         self._size = region.width, region.height
         shape = region.height, region.width
         self._face_id = np.empty(shape, np.int32)
-        depth, weights = np.empty(shape, np.float32), np.empty((*shape, 3), np.float32)
+        self.depth, weights = np.empty(shape, np.float32), np.empty((*shape, 3), np.float32)
         _native.rasterize(
             *(clip, np.ascontiguousarray(faces), _native.CULLS["none"]),
-            *(resolve_backend(), resolve_threads(), self._face_id, depth, weights),
+            *(resolve_backend(), resolve_threads(), self._face_id, self.depth, weights),
         )
         self._clip, self._faces = clip, faces
 

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.path import Path
 from matplotlib.transforms import IdentityTransform
+from mpl_toolkits.mplot3d.art3d import Text3D
 
 from ._pile import Pile
 from ._view import View
@@ -52,17 +53,40 @@ class Painter:
         return found
 
 
-def draw_text(pile: Pile, view: View, text, painter: Painter) -> None:
-    """Add a Text3D: as deep as its place."""
-    place = view.screen(np.array([[float(v) for v in text.get_position_3d()]]))
-    if not np.isfinite(place).all():
-        return
-    text.draw(painter.renderer)
-    if (painted := painter.taken()) is not None:
+def draw_texts(pile: Pile, view: View, texts: list[tuple[int, Text3D]], painter: Painter) -> list[Text3D]:
+    """Add those texts that something hides in part; each is as deep as its place.
+
+    Parameters
+    ----------
+    texts : list of (number, Text3D)
+        With what `Pile.begin` takes.
+
+    Returns
+    -------
+    texts : list of Text3D
+        Those that nothing hides, from far to near: they may stay text.
+    """
+    places = [view.screen(np.array([[float(v) for v in text.get_position_3d()]])) for _, text in texts]
+    shown = [(float(place[0, 2]), *text) for place, text in zip(places, texts, strict=True) if np.isfinite(place).all()]
+    depths = pile.depths() if shown else np.empty((0, 0))
+    free: list[Text3D] = []
+    for depth, number, text in sorted(shown, key=lambda one: (one[0], -one[1])):
+        text.draw(painter.renderer)
+        painted = painter.taken()
+        if painted is None:
+            free.append(text)
+            continue
         pixels, left, top = painted
-        radius = 0.5 * float(min(pixels.shape[:2]))
-        depth = pile.lifted(place, np.array([radius]))[0, 2]
-        pile.add_picture(_corners(pixels, left, top, (depth, 0.0, 0.0)), pixels)
+        place = view.screen(np.array([[float(v) for v in text.get_position_3d()]]))
+        lifted = float(pile.lifted(place, np.array([0.5 * min(pixels.shape[:2])]))[0, 2])
+        behind = depths[top : top + len(pixels), left : left + pixels.shape[1]]
+        if not (behind[pixels[..., 3] > 0] < lifted).any():
+            free.append(text)
+            continue
+        pile.begin(number)
+        pile.add_picture(_corners(pixels, left, top, (lifted, 0.0, 0.0)), pixels)
+        np.minimum(behind, lifted, out=behind, where=pixels[..., 3] > 0)
+    return free[::-1]
 
 
 def draw_path(pile: Pile, view: View, painter: Painter, places, codes, face, edge, width: float, hatch=None) -> None:

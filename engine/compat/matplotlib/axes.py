@@ -11,7 +11,7 @@ from mpl_toolkits.mplot3d import art3d, axes3d
 from ...errors import warn
 from ._blocks import Voxels, bar_polygons, colors_at, voxel_faces
 from ._known import kind_of, looks_solid, reason_against
-from ._picture import Drawn, Picture
+from ._picture import Drawn, Picture, Words
 from ._polygons import remember_grid
 
 
@@ -33,7 +33,8 @@ class Axes3D(axes3d.Axes3D):
     def draw(self, renderer) -> None:
         """Draw the axes; see `mpl_toolkits.mplot3d.axes3d.Axes3D.draw`."""
         drawn, others = self._sorted_out()
-        with cbook._setattr_cm(self, _children=[*others, Picture(self, drawn)]):
+        picture = Picture(self, drawn)
+        with cbook._setattr_cm(self, _children=[picture, Words(picture), *others]):
             super().draw(renderer)
 
     def _sorted_out(self) -> tuple[list[Drawn], list[martist.Artist]]:

@@ -24,12 +24,13 @@ from ._view import View
 
 
 class Pen(NamedTuple):
-    """How lines are drawn: dashes as matplotlib scales them, in points."""
+    """How lines are drawn: dashes as matplotlib scales them, in points; edges of faces lie on them."""
 
     cap: str = "butt"
     join: str = "round"
     start: float = 0.0
     dashes: tuple[float, ...] | None = None
+    of_faces: bool = False
 
 
 def draw_lines(
@@ -65,7 +66,8 @@ def draw_lines(
         widths, colors, closes = widths[source], colors[source], closes[source]
     if len(places) < 2:
         return
-    places = pile.lifted_lines(places, runs, 0.5 * widths)
+    lift = pile.lifted_edges if pen.of_faces else pile.lifted_lines
+    places = lift(places, runs, 0.5 * widths)
     stroked = stroke(places[:, :2], runs, closes, pen.cap, pen.join)
     corners = edge_of(stroked, places, 0.5 * widths)
     pile.add(corners, colors[stroked.point], stroked.triangles[::-1])
@@ -165,7 +167,9 @@ def draw_line_collection(pile: Pile, view: View, collection) -> None:
     draw_runs(pile, view, view.screen(points), sizes, collection, codes_of(collection.get_edgecolor()))
 
 
-def draw_runs(pile: Pile, view: View, places: np.ndarray, sizes: np.ndarray, collection, colors: np.ndarray) -> None:
+def draw_runs(
+    pile: Pile, view: View, places: np.ndarray, sizes: np.ndarray, collection, colors: np.ndarray, of_faces: bool = False
+) -> None:
     """Add runs of given sizes with a collection's widths and dashes; colours are those of the runs."""
     number = np.repeat(np.arange(len(sizes)), sizes)
     widths = cycled(np.asarray(collection.get_linewidth(), float).reshape(-1), len(sizes)) * view.points_to_pixels
@@ -174,7 +178,7 @@ def draw_runs(pile: Pile, view: View, places: np.ndarray, sizes: np.ndarray, col
     styles = collection._linestyles
     for k, (start, dashes) in reversed(list(enumerate(styles))):
         pick = slice(None) if len(styles) == 1 else number % len(styles) == k
-        pen = Pen(_word(cap), _word(join), start, None if dashes is None else tuple(dashes))
+        pen = Pen(_word(cap), _word(join), start, None if dashes is None else tuple(dashes), of_faces)
         of = number[pick]
         draw_lines(pile, view, places[pick], of, widths[of], colors[of], pen)
 

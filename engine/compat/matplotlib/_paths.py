@@ -16,7 +16,7 @@ from ._markers import draw_markers, shapes_of
 from ._outlines import Outline, has_curves, outlines_of
 from ._pile import Pile
 from ._polygons import is_plain
-from ._sheets import Painter, draw_path
+from ._sheets import FlatPath, Painter, draw_paths
 from ._view import View
 
 _STEPS = 8  # pieces of a curve
@@ -38,10 +38,23 @@ def draw_contours(pile: Pile, view: View, collection, painter: Painter) -> None:
     if lines:
         sizes = np.array([len(one) for one in lines])
         draw_runs(pile, view, np.concatenate(lines), sizes, collection, edges[owners])
-    for k, (vertices, codes) in reversed(list(enumerate(paths))):
-        if faces[k, 3] > 0 and len(vertices):
-            places = view.screen(np.asarray(vertices, float))
-            draw_path(pile, view, painter, places, codes, faces[k], (0, 0, 0, 0), 0.0)
+    filled = [k for k, (vertices, _) in enumerate(paths) if faces[k, 3] > 0 and len(vertices)]
+    sheets = [
+        FlatPath(view.screen(shown_points(np.asarray(paths[k][0], float), collection)), paths[k][1], faces[k])
+        for k in filled
+    ]
+    if filled and _share_a_plane([paths[k][0] for k in filled]):
+        draw_paths(pile, view, painter, sheets)
+        return
+    for sheet in reversed(sheets):
+        draw_paths(pile, view, painter, [sheet])
+
+
+def _share_a_plane(parts: list[np.ndarray]) -> bool:
+    """Return whether all points have one coordinate in common."""
+    first = parts[0][0]
+    same = np.all([(part == first).all(0) for part in parts], 0)
+    return bool(same.any())
 
 
 def _ring(outline: Outline) -> np.ndarray:
@@ -61,7 +74,7 @@ def draw_patch(pile: Pile, view: View, patch, painter: Painter) -> None:
         return
     if patch.get_hatch() or has_curves(codes) or not (codes is None or is_plain(codes)):
         edge = patch.get_edgecolor() if patch.get_hatch() else (0.0, 0.0, 0.0, 0.0)
-        draw_path(pile, view, painter, places, codes, face, edge, 0.0, patch.get_hatch())
+        draw_paths(pile, view, painter, [FlatPath(places, codes, face, edge, patch.get_hatch())])
         return
     corners = np.ascontiguousarray(places[:-1] if codes is not None and codes[-1] == 79 else places)
     if np.isfinite(corners).all():

@@ -66,7 +66,8 @@ class Picture(martist.Artist):
         """
         if min(region.width, region.height) <= 0 or (view := self._view(region)) is None:
             return []
-        pile = Pile(view, sum(vertex_count(artist) for artist, kind in drawn if kind == "polygons"))
+        vertices = sum(vertex_count(artist) for artist, kind in drawn if kind == "polygons")
+        pile = Pile(view, len(drawn), vertices)
         texts = self._collect(pile, view, drawn)
         if spared is not None and _within(pile.bounds(), region, spared):
             return texts
@@ -96,16 +97,15 @@ class Picture(martist.Artist):
         painter = Painter(self.get_figure(root=True), view)
         for number, (artist, kind) in enumerate(drawn):
             if kind == "polygons":
-                pile.begin(2 * number)
-                draw_faces(pile, artist)
+                pile.begin(number)
+                draw_faces(pile, view, artist)
         if any(kind != "polygons" or _has_edges(artist) for artist, kind in drawn):
             pile.end_surfaces()
         for number, (artist, kind) in enumerate(drawn):
             if kind != "text":
-                # Edges lie over faces.
-                pile.begin(2 * number + 1)
+                pile.begin(number, is_on_faces=True)
                 _DRAW[kind](pile, view, artist, painter)
-        texts = [(2 * number + 1, artist) for number, (artist, kind) in enumerate(drawn) if kind == "text"]
+        texts = [(number, artist) for number, (artist, kind) in enumerate(drawn) if kind == "text"]
         return draw_texts(pile, view, texts, painter)
 
 

@@ -6,6 +6,8 @@ Surfaces come first, so that what lies on them can be lifted before it is added.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..._native import rasterizer as _native
@@ -15,6 +17,8 @@ from ._view import View
 
 SAMPLES = 16  # a pixel
 _MANY, _FEWER_SAMPLES = 1 << 20, 8  # of so many triangles, whose edges are mostly inside of surfaces
+# Of the scene's depth: how much nearer an artist is than the one before at most, and the last than the first.
+_RANK, _RANKS = 0.0001, 0.002
 _LIFT = 0.002  # of the scene's depth: how much nearer lines and markers are than surfaces
 _CHUNK = 1 << 14  # vertices that are projected at a time, so that they stay in the cache
 _TEXTURED = 2  # how faces look: 0 opaque, 1 blended, 2 and more by a texture
@@ -26,11 +30,13 @@ class Pile:
     Parameters
     ----------
     view : View
+    artists : int
+        How many will be added.
     vertices : int
         How many the surfaces will have: a pile grows, but large ones are best made at once.
     """
 
-    def __init__(self, view: View, vertices: int) -> None:
+    def __init__(self, view: View, artists: int, vertices: int) -> None:
         self._view = view
         self._clip = np.empty((vertices, 4), np.float32)
         self._colors = np.empty((vertices, 4), np.uint8)
@@ -39,12 +45,17 @@ class Pile:
         self._faces: dict[int, list[tuple[np.ndarray, np.ndarray]]] = {}
         self._textures: list[np.ndarray] = []
         self._textured: list[tuple[int, np.ndarray]] = []
-        self._artist = 0
+        self._artists = max(artists, 1)
+        self._artist, self._rank = 0, 0.0
         self._surfaces: Surfaces | None = None
 
-    def begin(self, artist: int) -> None:
-        """Let what is added belong to the artist of a number; of equal depth, greater ones show."""
-        self._artist = artist
+    def begin(self, artist: int, is_on_faces: bool = False) -> None:
+        """Let what is added belong to the artist of a number, from 0 on; of equal depth, greater ones show.
+
+        Greater ones are a little nearer, too: where two lie in one plane, rounding must not decide.
+        """
+        self._artist = 2 * artist + is_on_faces
+        self._rank = artist * min(_RANK, _RANKS / self._artists) * self._view.span
 
     def end_surfaces(self) -> None:
         """Remember what was added as the surfaces that others may lie on."""
@@ -72,23 +83,34 @@ class Pile:
 
     def lifted(self, places: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """Return places of markers, nearer: those on surfaces by as much as surfaces rise round them."""
-        out = places.copy()
-        out[:, 2] -= _LIFT * self._view.span
-        if self._surfaces is not None and len(places):
-            rise, lies = self._surfaces.under(places, self._view.span)
-            out[:, 2] -= np.where(lies, self._surfaces.limited(rise * (1.0 + radii), self._view.span), 0.0)
-        return out
+        return self._lifted(places, radii, lambda lies: lies)
 
     def lifted_lines(self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray) -> np.ndarray:
-        """The same of lines: a point lies on a surface where its neighbours do."""
+        """The same of lines: a point lies on a surface where its neighbours do, too."""
+        after = np.append(runs[1:] == runs[:-1], False)
+        before = np.roll(after, 1)
+
+        def along(lies: np.ndarray) -> np.ndarray:
+            return lies & (np.roll(lies, 1) | ~before) & (np.roll(lies, -1) | ~after) & (before | after)
+
+        return self._lifted(places, half_widths, along)
+
+    def lifted_edges(self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray) -> np.ndarray:
+        """The same of edges of faces: a point lies on its face where a neighbour does."""
+        after = np.append(runs[1:] == runs[:-1], False)
+        before = np.roll(after, 1)
+
+        def near(lies: np.ndarray) -> np.ndarray:
+            return lies | (np.roll(lies, 1) & before) | (np.roll(lies, -1) & after)
+
+        return self._lifted(places, half_widths, near)
+
+    def _lifted(self, places: np.ndarray, radii: np.ndarray, decide: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
         out = places.copy()
         out[:, 2] -= _LIFT * self._view.span
         if self._surfaces is not None and len(places):
             rise, lies = self._surfaces.under(places, self._view.span)
-            joined = np.append(runs[1:] == runs[:-1], False)
-            before, after = np.roll(joined, 1), joined
-            lies &= (np.roll(lies, 1) | ~before) & (np.roll(lies, -1) | ~after) & (before | after)
-            out[:, 2] -= np.where(lies, self._surfaces.limited(rise * (1.0 + half_widths), self._view.span), 0.0)
+            out[:, 2] -= np.where(decide(lies), self._surfaces.limited(rise * (1.0 + radii), self._view.span), 0.0)
         return out
 
     @property
@@ -108,7 +130,7 @@ class Pile:
             Of equal depth, earlier ones show.
         """
         first = self._take(len(places), colors)
-        self._view.clip(places, self._clip[first : self._used])
+        self._view.clip(places, self._clip[first : self._used], self._rank)
         self._put(faces, first, colors)
 
     def add_polygons(
@@ -118,7 +140,7 @@ class Pile:
         first = self._take(len(points), colors)
         clip = self._clip[first : self._used]
         for k in range(0, len(points), _CHUNK):
-            self._view.clip(self._view.screen(points[k : k + _CHUNK]), clip[k : k + _CHUNK])
+            self._view.clip(self._view.screen(points[k : k + _CHUNK]), clip[k : k + _CHUNK], self._rank)
         if sizes is not None:
             drop_broken(clip, sizes)
         self._put(faces, first, colors)
@@ -127,7 +149,7 @@ class Pile:
         """Add a rectangle of pixels, (H, W, 4) uint8, between four corners, (4, 3), left top, right top, left bottom, right bottom."""
         white = np.full(4, 255, np.uint8)
         first = self._take(4, white)
-        self._view.clip(corners, self._clip[first : self._used])
+        self._view.clip(corners, self._clip[first : self._used], self._rank)
         uvs = np.array([[0, 1], [1, 1], [0, 0], [1, 0]], np.float32)
         self._textured.append((first, uvs))
         faces = np.array([[0, 1, 2], [1, 3, 2]], np.int32)

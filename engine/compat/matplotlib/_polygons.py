@@ -15,6 +15,8 @@ from ._lines import draw_runs
 from ._pile import Pile, drop_broken
 from ._view import View
 
+_TOWARDS_MEAN = 0.002  # how far edges move towards the depth of their polygon
+
 
 def colors_of(collection) -> tuple[np.ndarray, np.ndarray]:
     """Return the colours of faces and edges of a Poly3DCollection, in the order of its polygons."""
@@ -36,7 +38,7 @@ def vertex_count(collection) -> int:
     return int(np.prod(collection._faces.shape[:2]))
 
 
-def draw_faces(pile: Pile, collection) -> None:
+def draw_faces(pile: Pile, view: View, collection) -> None:
     """Add the faces of a Poly3DCollection."""
     faces, colors = collection._faces, colors_of(collection)[0]
     count, corners = faces.shape[:2]
@@ -46,9 +48,56 @@ def draw_faces(pile: Pile, collection) -> None:
         pile.add_polygons(*grid, colors[0])
         return
     sizes, points = _polygons_of(collection)
+    if corners > 3 and (colors[:, 3] < 255).any():
+        _draw_clear(pile, view, sizes, points, colors)
+        return
     triangles = triangulate(sizes, points).corners
     colors = colors[0] if len(colors) == 1 else np.repeat(colors, sizes, 0)
     pile.add_polygons(points, triangles[::-1], colors, sizes)
+
+
+def _draw_clear(pile: Pile, view: View, sizes: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
+    """Add polygons that are cut on the page, so that none is laid over itself."""
+    places = view.screen(points)
+    drop_broken(places, sizes)
+    cut = triangulate(sizes, np.nan_to_num(places) * (1.0, 1.0, 0.0))
+    triangles, owners = cut.corners, np.repeat(np.arange(len(sizes)), sizes)
+    if (sizes == 4).all():
+        crossed, places, halves = _uncrossed(places)
+        triangles = np.concatenate([triangles[~np.isin(cut.polygons, crossed)], halves])
+        owners = np.concatenate([owners, crossed])
+    pile.add(places, colors[0] if len(colors) == 1 else colors[owners], triangles[::-1])
+
+
+def _uncrossed(places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Cut quads whose edges cross on the page in two.
+
+    Returns
+    -------
+    quads : (Q,) int
+        Those, one for each place that is added.
+    places : (V + Q, 3) float64
+    triangles : (2 Q, 3) int32
+    """
+    quads, corners = [], places.reshape(-1, 4, 3)
+    added, triangles = [places], []
+    count = len(places)
+    # Edges 1-2 and 3-0 cross, or edges 0-1 and 2-3.
+    for first in (1, 0):
+        a, b, c, d = ((first + k) % 4 for k in range(4))
+        start, other = corners[:, a], corners[:, c]
+        along, across, between = corners[:, b] - start, corners[:, d] - other, other - start
+        with np.errstate(all="ignore"):
+            area = along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]
+            s = (between[:, 0] * across[:, 1] - between[:, 1] * across[:, 0]) / area
+            t = (between[:, 0] * along[:, 1] - between[:, 1] * along[:, 0]) / area
+        found = np.flatnonzero((s > 0) & (s < 1) & (t > 0) & (t < 1))
+        quads.append(found)
+        added.append(0.5 * (start + s[:, None] * along + other + t[:, None] * across)[found])
+        middle = count + np.arange(len(found))
+        count += len(found)
+        triangles += [np.stack([4 * found + b, 4 * found + c, middle], 1), np.stack([4 * found + d, 4 * found + a, middle], 1)]
+    return np.concatenate(quads), np.concatenate(added), np.concatenate(triangles).astype(np.int32)
 
 
 def remember_grid(surface, shape: tuple[int, ...]) -> None:
@@ -84,9 +133,13 @@ def draw_edges(pile: Pile, view: View, collection) -> None:
     sizes, points = _polygons_of(collection)
     places = view.screen(points)
     drop_broken(places, sizes)
+    if len(sizes) and (sizes > 0).all():
+        # Where two polygons meet, the edge of the nearer one shows, as if it were painted later.
+        means = np.add.reduceat(places[:, 2], np.cumsum(sizes) - sizes) / sizes
+        places[:, 2] += _TOWARDS_MEAN * (np.repeat(means, sizes) - places[:, 2])
     if getattr(collection, "_closed", True) or collection._codes3d is not None:
         places, sizes = _closed(places, sizes)
-    draw_runs(pile, view, places, sizes, collection, edges)
+    draw_runs(pile, view, places, sizes, collection, edges, of_faces=True)
 
 
 def _polygons_of(collection) -> tuple[np.ndarray, np.ndarray]:

@@ -6,6 +6,8 @@ a flat path lies in the plane of its points.
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.path import Path
@@ -89,10 +91,10 @@ def draw_texts(pile: Pile, view: View, texts: list[tuple[int, Text3D]], painter:
     return free[::-1]
 
 
-def draw_path(pile: Pile, view: View, painter: Painter, places, codes, face, edge, width: float, hatch=None) -> None:
-    """Add a flat path.
+class FlatPath(NamedTuple):
+    """A path that lies in a plane.
 
-    Parameters
+    Attributes
     ----------
     places : (N, 3) float64
         On the screen.
@@ -100,23 +102,35 @@ def draw_path(pile: Pile, view: View, painter: Painter, places, codes, face, edg
         `Path.codes`.
     face, edge : (4,) float
         RGBA.
-    width : float
-        Of the edge, pixels.
+    hatch : str or None
     """
+
+    places: np.ndarray
+    codes: np.ndarray | None
+    face: Any
+    edge: Any = (0.0, 0.0, 0.0, 0.0)
+    hatch: str | None = None
+
+
+def draw_paths(pile: Pile, view: View, painter: Painter, paths: list[FlatPath]) -> None:
+    """Add paths of one plane; later ones lie on earlier ones."""
+    places = np.concatenate([path.places for path in paths])
     plane = _plane_of(places)
     if plane is None:
         return
-    renderer, region = painter.renderer, view.region
-    page = places[:, :2] * (1.0, -1.0) + (region.left, region.bottom + region.height)
-    gc = renderer.new_gc()
-    gc.set_linewidth(width if edge[3] > 0 else 0.0)
-    gc.set_foreground(tuple(edge), isRGBA=True)
-    if hatch:
-        gc.set_hatch(hatch)
-        gc.set_hatch_color(tuple(edge))
-    renderer.draw_path(gc, Path(page, codes), IdentityTransform(), tuple(face) if face[3] > 0 else None)
-    gc.restore()
-    finite = page[np.isfinite(page).all(1)]
+    region = view.region
+    origin = np.array([region.left, region.bottom + region.height], float)
+    for path in paths:
+        gc = painter.renderer.new_gc()
+        gc.set_linewidth(0.0)
+        gc.set_foreground(tuple(path.edge), isRGBA=True)
+        if path.hatch:
+            gc.set_hatch(path.hatch)
+            gc.set_hatch_color(tuple(path.edge))
+        page = Path(path.places[:, :2] * (1.0, -1.0) + origin, path.codes)
+        painter.renderer.draw_path(gc, page, IdentityTransform(), tuple(path.face) if path.face[3] > 0 else None)
+        gc.restore()
+    finite = places[np.isfinite(places).all(1), :2] * (1.0, -1.0) + origin
     if (painted := painter.taken((*finite.min(0), *finite.max(0)))) is not None:
         pixels, left, top = painted
         pile.add_picture(_corners(pixels, left, top, plane), pixels)

@@ -14,7 +14,7 @@ import numpy as np
 
 _ROUND_TURN = 0.5  # cosines below it: a turn gets a join of its own
 _MITER_TURN = -0.75
-_STEP = 8.0  # pixels: pieces are no longer where depths are looked up
+_STEP = 4.0  # pixels: pieces are no longer where depths are looked up
 
 
 class Stroke(NamedTuple):

@@ -93,12 +93,12 @@ class View:
             np.multiply(z, self._scale, out=out[..., 2])
         return out
 
-    def clip(self, places: np.ndarray, out: np.ndarray) -> None:
-        """Write clip coordinates, (N, 4) float32, of places on the screen, (N, 3)."""
+    def clip(self, places: np.ndarray, out: np.ndarray, nearer: float) -> None:
+        """Write clip coordinates, (N, 4) float32, of places on the screen, (N, 3), by so much nearer."""
         with np.errstate(over="ignore", invalid="ignore"):
             out[:, 0] = places[:, 0] * (2.0 / self.region.width) - 1.0
             out[:, 1] = 1.0 - places[:, 1] * (2.0 / self.region.height)
-            out[:, 2] = places[:, 2]
+            out[:, 2] = places[:, 2] - nearer
         out[:, 3] = 1.0
 
 

@@ -4,7 +4,13 @@
 what it draws, and what it leaves to mplot3d. Needs the extra ``matplotlib``.
 """
 
+import matplotlib
 from matplotlib.projections import register_projection
+
+if matplotlib.__version_info__ < (3, 11):
+    raise ImportError(
+        f"engine3d.compat.matplotlib needs matplotlib 3.11, not {matplotlib.__version__}"
+    )
 
 from .axes import Axes3D
 

@@ -65,7 +65,10 @@ def voxel_faces(filled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         axis = int(np.argmax(turn[:, 2]))
         step = turn[:, 2]
         padded = np.pad(filled, [(1, 1) if k == axis else (0, 0) for k in range(3)])
-        lower, upper = padded.take(range(padded.shape[axis] - 1), axis), padded.take(range(1, padded.shape[axis]), axis)
+        lower, upper = (
+            padded.take(range(padded.shape[axis] - 1), axis),
+            padded.take(range(1, padded.shape[axis]), axis),
+        )
         for sign, edge in ((1, lower & ~upper), (-1, upper & ~lower)):
             at = np.argwhere(edge)
             voxels.append(at - step if sign > 0 else at)
@@ -86,9 +89,15 @@ class Voxels(dict):
     """
 
     def __init__(self, axes, collection, voxel: np.ndarray, spread) -> None:
-        starts = np.flatnonzero(np.append(True, (np.diff(voxel, axis=0) != 0).any(1))) if len(voxel) else np.empty(0, int)
+        starts = (
+            np.flatnonzero(np.append(True, (np.diff(voxel, axis=0) != 0).any(1)))
+            if len(voxel)
+            else np.empty(0, int)
+        )
         ends = np.append(starts[1:], len(voxel))
-        super().__init__({tuple(map(int, voxel[a])): (int(a), int(b)) for a, b in zip(starts, ends, strict=True)})
+        super().__init__(
+            {tuple(map(int, voxel[a])): (int(a), int(b)) for a, b in zip(starts, ends, strict=True)}
+        )
         self._axes, self._collection, self._spread = axes, collection, spread
 
     def _split(self) -> None:

@@ -24,7 +24,7 @@ from ._view import View
 
 
 class Pen(NamedTuple):
-    """How lines are drawn: dashes as matplotlib scales them, in points; edges of faces lie on them."""
+    """How lines are drawn: dashes in points, as matplotlib scales them."""
 
     cap: str = "butt"
     join: str = "round"
@@ -34,7 +34,13 @@ class Pen(NamedTuple):
 
 
 def draw_lines(
-    pile: Pile, view: View, places: np.ndarray, runs: np.ndarray, widths: np.ndarray, colors: np.ndarray, pen: Pen
+    pile: Pile,
+    view: View,
+    places: np.ndarray,
+    runs: np.ndarray,
+    widths: np.ndarray,
+    colors: np.ndarray,
+    pen: Pen,
 ) -> None:
     """Add lines to a pile.
 
@@ -115,7 +121,11 @@ def draw_line(pile: Pile, view: View, line) -> None:
 
 def _draw_markers_of(pile: Pile, view: View, line, places: np.ndarray) -> None:
     marker = line._marker
-    if not marker or not line.get_markersize() > 0 or marker.get_marker() in ("None", "none", " ", "", None):
+    if (
+        not marker
+        or not line.get_markersize() > 0
+        or marker.get_marker() in ("None", "none", " ", "", None)
+    ):
         return
     places = _every(line, places)
     places = places[np.isfinite(places).all(1)]
@@ -125,7 +135,9 @@ def _draw_markers_of(pile: Pile, view: View, line, places: np.ndarray) -> None:
     face = mcolors.to_rgba(line._get_markerfacecolor(), alpha)
     other = mcolors.to_rgba(line._get_markerfacecolor(alt=True), alpha)
     edge = mcolors.to_rgba(line.get_markeredgecolor(), alpha)
-    if cbook._str_equal(line._markeredgecolor, "auto") and not cbook._str_lower_equal(line.get_markerfacecolor(), "none"):
+    if cbook._str_equal(line._markeredgecolor, "auto") and not cbook._str_lower_equal(
+        line.get_markerfacecolor(), "none"
+    ):
         edge = (*edge[:3], face[3])
     is_pixel = marker.get_marker() == ","
     size = 1.0 if is_pixel else line.get_markersize() * view.points_to_pixels
@@ -161,24 +173,40 @@ def draw_line_collection(pile: Pile, view: View, collection) -> None:
     sizes = np.fromiter(map(len, segments), int, len(segments))
     if not sizes.sum():
         return
-    parts = [np.ma.filled(np.ma.asarray(one, float), np.nan) if np.ma.isMA(one) else one for one in segments]
+    parts = [
+        np.ma.filled(np.ma.asarray(one, float), np.nan) if np.ma.isMA(one) else one
+        for one in segments
+    ]
     points = shown_points(np.concatenate(parts).astype(float).reshape(-1, 3), collection)
     collection.update_scalarmappable()
-    draw_runs(pile, view, view.screen(points), sizes, collection, codes_of(collection.get_edgecolor()))
+    draw_runs(
+        pile, view, view.screen(points), sizes, collection, codes_of(collection.get_edgecolor())
+    )
 
 
 def draw_runs(
-    pile: Pile, view: View, places: np.ndarray, sizes: np.ndarray, collection, colors: np.ndarray, of_faces: bool = False
+    pile: Pile,
+    view: View,
+    places: np.ndarray,
+    sizes: np.ndarray,
+    collection,
+    colors: np.ndarray,
+    of_faces: bool = False,
 ) -> None:
-    """Add runs of given sizes with a collection's widths and dashes; colours are those of the runs."""
+    """Add runs of given sizes and colours, with a collection's widths and dashes."""
     number = np.repeat(np.arange(len(sizes)), sizes)
-    widths = cycled(np.asarray(collection.get_linewidth(), float).reshape(-1), len(sizes)) * view.points_to_pixels
+    widths = (
+        cycled(np.asarray(collection.get_linewidth(), float).reshape(-1), len(sizes))
+        * view.points_to_pixels
+    )
     colors = cycled(colors, len(sizes))
     cap, join = collection.get_capstyle() or "butt", collection.get_joinstyle() or "round"
     styles = collection._linestyles
     for k, (start, dashes) in reversed(list(enumerate(styles))):
         pick = slice(None) if len(styles) == 1 else number % len(styles) == k
-        pen = Pen(_word(cap), _word(join), start, None if dashes is None else tuple(dashes), of_faces)
+        pen = Pen(
+            _word(cap), _word(join), start, None if dashes is None else tuple(dashes), of_faces
+        )
         of = number[pick]
         draw_lines(pile, view, places[pick], of, widths[of], colors[of], pen)
 

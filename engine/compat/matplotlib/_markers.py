@@ -37,7 +37,9 @@ def shapes_of(path, transform, pixels: float, cap: str, join: str) -> Shapes:
     """Return the triangles of a marker whose largest size is so many pixels."""
     vertices = transform.transform(path.vertices)
     reach = np.abs(vertices).max(initial=0.0) * pixels
-    outlines = outlines_of(vertices * (1.0, -1.0), path.codes, int(np.clip(np.ceil(np.sqrt(reach / 2)), 1, 8)))
+    outlines = outlines_of(
+        vertices * (1.0, -1.0), path.codes, int(np.clip(np.ceil(np.sqrt(reach / 2)), 1, 8))
+    )
     fills, wholes, edges = [], [], []
     for points, is_closed in outlines:
         line = np.append(points, points[:1], 0) if is_closed else points
@@ -80,7 +82,9 @@ def _joined(shapes: list[_Shape]) -> _Shape:
     return _Shape(
         np.concatenate([one.corner for one in shapes]),
         np.concatenate([one.offset for one in shapes]),
-        np.concatenate([one.triangles + np.int32(k) for one, k in zip(shapes, starts[:-1], strict=True)]),
+        np.concatenate(
+            [one.triangles + np.int32(k) for one, k in zip(shapes, starts[:-1], strict=True)]
+        ),
     )
 
 
@@ -108,7 +112,9 @@ def draw_markers(
     radii = sizes * 0.5 + widths * 0.5
     places = pile.lifted(places, radii)
     has_edge = (edges[:, 3] > 0) & (widths > 0)
-    is_whole = has_edge & (faces[:, 3] == 255) & (faces == edges).all(1) & (len(shapes.fill.corner) > 0)
+    is_whole = (
+        has_edge & (faces[:, 3] == 255) & (faces == edges).all(1) & (len(shapes.fill.corner) > 0)
+    )
     has_face = (faces[:, 3] > 0) & ~is_whole
     # The first of equal depth is in front.
     for shape, shown, colors in (
@@ -132,7 +138,9 @@ def _put(pile: Pile, shape: _Shape, places, sizes, widths, colors) -> None:
         out[..., k] += places[:, k, None]
     out[..., 2] = places[:, 2, None]
     first = corners * np.arange(len(places), dtype=np.int32)[::-1, None, None]
-    pile.add(out.reshape(-1, 3), np.repeat(colors, corners, 0), (first + shape.triangles).reshape(-1, 3))
+    pile.add(
+        out.reshape(-1, 3), np.repeat(colors, corners, 0), (first + shape.triangles).reshape(-1, 3)
+    )
 
 
 def edge_of(stroked: Stroke, places: np.ndarray, half_width: np.ndarray) -> np.ndarray:

@@ -40,7 +40,11 @@ def draw_contours(pile: Pile, view: View, collection, painter: Painter) -> None:
         draw_runs(pile, view, np.concatenate(lines), sizes, collection, edges[owners])
     filled = [k for k, (vertices, _) in enumerate(paths) if faces[k, 3] > 0 and len(vertices)]
     sheets = [
-        FlatPath(view.screen(shown_points(np.asarray(paths[k][0], float), collection)), paths[k][1], faces[k])
+        FlatPath(
+            view.screen(shown_points(np.asarray(paths[k][0], float), collection)),
+            paths[k][1],
+            faces[k],
+        )
         for k in filled
     ]
     if filled and _share_a_plane([paths[k][0] for k in filled]):
@@ -84,7 +88,10 @@ def draw_patch(pile: Pile, view: View, patch, painter: Painter) -> None:
 
 
 def _draw_outline(pile: Pile, view: View, patch, places: np.ndarray, codes) -> None:
-    edge, width = codes_of([patch.get_edgecolor()])[0], patch.get_linewidth() * view.points_to_pixels
+    edge, width = (
+        codes_of([patch.get_edgecolor()])[0],
+        patch.get_linewidth() * view.points_to_pixels,
+    )
     if edge[3] == 0 or not width > 0:
         return
     outlines = outlines_of(places, codes, _STEPS)
@@ -101,25 +108,44 @@ def _draw_outline(pile: Pile, view: View, patch, places: np.ndarray, codes) -> N
 def draw_scatter(pile: Pile, view: View, collection) -> None:
     """Add a Path3DCollection, which was projected: from far to near."""
     order = collection._z_markers_idx
-    points = np.stack([np.ma.filled(np.ma.asarray(one, float), np.nan) for one in collection._offsets3d], -1)
+    points = np.stack(
+        [np.ma.filled(np.ma.asarray(one, float), np.nan) for one in collection._offsets3d], -1
+    )
     shown = ~np.ma.getmaskarray(collection._vzs)
     points[~shown] = np.nan
     places = view.screen(shown_points(points, collection))[order]
     count, paths = len(places), collection.get_paths()
     if not count or not paths:
         return
-    scale = np.sqrt(np.asarray(collection._sizes, float)) * view.points_to_pixels * collection._factor
+    scale = np.sqrt(np.asarray(collection.get_sizes(), float)) * view.points_to_pixels
     sizes = cycled(scale.reshape(-1), count) if scale.size else np.ones(count)
-    widths = cycled(np.asarray(collection.get_linewidth(), float).reshape(-1), count) * view.points_to_pixels
-    faces, edges = (cycled(codes_of(one), count) for one in (collection.get_facecolor(), collection.get_edgecolor()))
+    widths = (
+        cycled(np.asarray(collection.get_linewidth(), float).reshape(-1), count)
+        * view.points_to_pixels
+    )
+    faces, edges = (
+        cycled(codes_of(one), count)
+        for one in (collection.get_facecolor(), collection.get_edgecolor())
+    )
     keep = np.isfinite(places).all(1)
     for k in reversed(range(len(paths))):
         pick = keep if len(paths) == 1 else keep & (np.arange(count) % len(paths) == k)
         if pick.any():
             largest = float(sizes[pick].max(initial=0.0))
-            shapes = shapes_of(paths[k], _Same(), largest, "butt", str(collection.get_joinstyle() or "round"))
+            shapes = shapes_of(
+                paths[k], _Same(), largest, "butt", str(collection.get_joinstyle() or "round")
+            )
             draw_markers(
-                *(pile, view, shapes, places[pick], sizes[pick], widths[pick], faces[pick], edges[pick]),
+                *(
+                    pile,
+                    view,
+                    shapes,
+                    places[pick],
+                    sizes[pick],
+                    widths[pick],
+                    faces[pick],
+                    edges[pick],
+                ),
             )
 
 

@@ -1,30 +1,29 @@
 """The picture that axes draw: an artist that stands for all artists in space.
 
-In: the axes and their artists, when it is drawn. Out: one image on the canvas, in vector files, too.
+In: the axes and their artists, when it is drawn. Out: one image on the canvas, in vector files as
+well, and the texts that nothing hides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib import artist as martist
 
-from ._known import is_clipped
-from ._lines import draw_line, draw_line_collection, points_of, project_line
-from ._paths import draw_contours, draw_patch, draw_scatter
+from ._known import LINE, POLYGONS, SCATTER, TEXT, Kind, is_clipped
+from ._lines import project_line
 from ._pile import Pile
-from ._polygons import draw_edges, draw_faces, vertex_count
+from ._polygons import draw_faces, vertex_count
 from ._sheets import Painter, draw_texts
 from ._view import Region, View
 
 
 class Drawn(NamedTuple):
-    """An artist and its kind, of `KINDS`."""
+    """An artist and its kind."""
 
     artist: martist.Artist
-    kind: str
+    kind: Kind
 
 
 class Picture(martist.Artist):
@@ -59,14 +58,16 @@ class Picture(martist.Artist):
         box = self.get_figure(root=True).bbox
         return Region(0, 0, int(box.width), int(box.height))
 
-    def _show(self, renderer, region: Region, drawn: list[Drawn], spared: Region | None = None) -> list:
+    def _show(
+        self, renderer, region: Region, drawn: list[Drawn], spared: Region | None = None
+    ) -> list:
         """Put the picture of a region on the canvas; return the texts that are left to be written.
 
         ``spared`` is left out, and where all lies within, nothing is drawn.
         """
         if min(region.width, region.height) <= 0 or (view := self._view(region)) is None:
             return []
-        vertices = sum(vertex_count(artist) for artist, kind in drawn if kind == "polygons")
+        vertices = sum(vertex_count(artist) for artist, kind in drawn if kind is POLYGONS)
         pile = Pile(view, len(drawn), vertices)
         texts = self._collect(pile, view, drawn)
         if spared is not None and _within(pile.bounds(), region, spared):
@@ -96,16 +97,16 @@ class Picture(martist.Artist):
         """Add artists to a pile; return the texts that nothing hides."""
         painter = Painter(self.get_figure(root=True), view)
         for number, (artist, kind) in enumerate(drawn):
-            if kind == "polygons":
+            if kind is POLYGONS:
                 pile.begin(number)
                 draw_faces(pile, view, artist)
-        if any(kind != "polygons" or _has_edges(artist) for artist, kind in drawn):
+        if any(kind is not POLYGONS or _has_edges(artist) for artist, kind in drawn):
             pile.end_surfaces()
         for number, (artist, kind) in enumerate(drawn):
-            if kind != "text":
+            if kind is not TEXT:
                 pile.begin(number, is_on_faces=True)
-                _DRAW[kind](pile, view, artist, painter)
-        texts = [(number, artist) for number, (artist, kind) in enumerate(drawn) if kind == "text"]
+                kind.draw(pile, view, artist, painter)
+        texts = [(number, artist) for number, (artist, kind) in enumerate(drawn) if kind is TEXT]
         return draw_texts(pile, view, texts, painter)
 
 
@@ -129,7 +130,9 @@ def _within(bounds: tuple[float, float, float, float], region: Region, box: Regi
     """Return whether bounds, counted from a region's left top, lie within a box of the canvas."""
     left, top, right, bottom = bounds
     first, last = box.left - region.left, region.bottom + region.height - box.bottom
-    return first <= left and right <= first + box.width and last - box.height <= top and bottom <= last
+    return (
+        first <= left and right <= first + box.width and last - box.height <= top and bottom <= last
+    )
 
 
 def _box_of(axes) -> Region:
@@ -139,65 +142,38 @@ def _box_of(axes) -> Region:
 
 
 def _has_edges(collection) -> bool:
-    return bool(len(collection._edgecolor3d) or collection._A is not None) and bool(np.any(collection.get_linewidth()))
+    has_colors = len(collection._edgecolor3d) or collection._A is not None
+    return bool(has_colors) and bool(np.any(collection.get_linewidth()))
 
 
-def _project(artist, kind: str) -> None:
+def _project(artist, kind: Kind) -> None:
     """Let mplot3d know where an artist is, so that it can be picked."""
-    if kind == "scatter":
+    if kind is SCATTER:
         artist.do_3d_projection()
-    elif kind == "line":
+    elif kind is LINE:
         project_line(artist)
-    elif kind == "polygons":
+    elif kind is POLYGONS:
         # The next one who asks for the colours on the page gets those of now.
         vars(artist).pop("_facecolors2d", None)
         vars(artist).pop("_edgecolors2d", None)
 
 
-def _bounds_of(artist, kind: str) -> tuple[np.ndarray, np.ndarray] | None:
+def _bounds_of(artist, kind: Kind) -> tuple[np.ndarray, np.ndarray] | None:
     """Return the box of an artist's points in the space of its axes' data."""
-    points = np.asarray(_POINTS[kind](artist), float)
+    points = np.asarray(kind.points(artist), float).reshape(-1, 3)
     if not points.size:
         return None
-    points = points.reshape(-1, 3)
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    # Column by column: many times as fast as over rows of three.
+    low, high = (np.array([find(points[:, k]) for k in range(3)]) for find in (np.min, np.max))
+    scales = [axis.get_scale() for axis in artist.axes._axis_map.values()]
+    is_linear = all(scale == "linear" for scale in scales)
+    if np.isfinite(low).all() and np.isfinite(high).all() and is_linear:
+        return low, high
     for k, axis in enumerate(artist.axes._axis_map.values()):
-        values = points[:, k]
-        if not np.isfinite(values.min()) or not np.isfinite(values.max()) or axis.get_scale() != "linear":
-            values = values[np.isfinite(values)]
-            values = values[axis._scale.val_in_range(values)] if axis.get_scale() != "linear" else values
+        values = points[np.isfinite(points[:, k]), k]
+        if scales[k] != "linear":
+            values = values[axis._scale.val_in_range(values)]
         if not values.size:
             return None
         low[k], high[k] = values.min(), values.max()
     return low, high
-
-
-def _segment_points(artist) -> np.ndarray:
-    parts = [np.ma.filled(np.ma.asarray(one, float), np.nan).reshape(-1, 3) for one in artist._segments3d]
-    return np.concatenate(parts) if parts else np.empty((0, 3))
-
-
-def _polygon_points(artist) -> np.ndarray:
-    faces = artist._faces
-    invalid = np.broadcast_to(artist._invalid_vertices, faces.shape[:2])
-    return faces[~invalid] if invalid.any() else faces
-
-
-_POINTS: dict[str, Callable] = {
-    "polygons": _polygon_points,
-    "segments": _segment_points,
-    "scatter": lambda artist: np.stack([np.ma.filled(np.ma.asarray(v, float), np.nan) for v in artist._offsets3d], -1),
-    "contours": lambda artist: np.concatenate([vs for vs, _ in artist._3dverts_codes] or [np.empty((0, 3))]),
-    "line": points_of,
-    "patch": lambda artist: artist._segment3d,
-    "text": lambda artist: artist.get_position_3d(),
-}
-
-_DRAW: dict[str, Callable] = {
-    "polygons": lambda pile, view, artist, painter: draw_edges(pile, view, artist),
-    "segments": lambda pile, view, artist, painter: draw_line_collection(pile, view, artist),
-    "scatter": lambda pile, view, artist, painter: draw_scatter(pile, view, artist),
-    "contours": draw_contours,
-    "line": lambda pile, view, artist, painter: draw_line(pile, view, artist),
-    "patch": draw_patch,
-}

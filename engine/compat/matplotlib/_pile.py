@@ -16,8 +16,9 @@ from ._resting import Surfaces
 from ._view import View
 
 SAMPLES = 16  # a pixel
-_MANY, _FEWER_SAMPLES = 1 << 20, 8  # of so many triangles, whose edges are mostly inside of surfaces
-# Of the scene's depth: how much nearer an artist is than the one before at most, and the last than the first.
+# Of so many triangles, whose edges are mostly inside of surfaces.
+_MANY, _FEWER_SAMPLES = 1 << 20, 8
+# Of the scene's depth: how much nearer an artist is at most than the one before, or the first.
 _RANK, _RANKS = 0.0001, 0.002
 _LIFT = 0.002  # of the scene's depth: how much nearer lines and markers are than surfaces
 _CHUNK = 1 << 14  # vertices that are projected at a time, so that they stay in the cache
@@ -50,9 +51,10 @@ class Pile:
         self._surfaces: Surfaces | None = None
 
     def begin(self, artist: int, is_on_faces: bool = False) -> None:
-        """Let what is added belong to the artist of a number, from 0 on; of equal depth, greater ones show.
+        """Let what is added belong to the artist of a number, from 0 on.
 
-        Greater ones are a little nearer, too: where two lie in one plane, rounding must not decide.
+        Of equal depth, greater numbers show. They are a little nearer, too: where two lie in one
+        plane, rounding must not decide.
         """
         self._artist = 2 * artist + is_on_faces
         self._rank = artist * min(_RANK, _RANKS / self._artists) * self._view.span
@@ -67,9 +69,13 @@ class Pile:
         return Surfaces(self._view.region, self._clip[: self._used], faces)
 
     def depths(self) -> np.ndarray:
-        """Return the depth of what shows at each pixel so far, (H, W) float32; infinite where nothing does."""
+        """Return the depth of what shows so far, (H, W) float32, infinite where nothing does."""
         region = self._view.region
-        return self._seen().depth if self._faces else np.full((region.height, region.width), np.inf, np.float32)
+        return (
+            self._seen().depth
+            if self._faces
+            else np.full((region.height, region.width), np.inf, np.float32)
+        )
 
     def bounds(self) -> tuple[float, float, float, float]:
         """Return left, top, right and bottom of all that was added, pixels of the region."""
@@ -82,20 +88,29 @@ class Pile:
         return left, top, right, bottom
 
     def lifted(self, places: np.ndarray, radii: np.ndarray) -> np.ndarray:
-        """Return places of markers, nearer: those on surfaces by as much as surfaces rise round them."""
+        """Return places of markers, nearer: on surfaces by as much as these rise round them."""
         return self._lifted(places, radii, lambda lies: lies)
 
-    def lifted_lines(self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray) -> np.ndarray:
+    def lifted_lines(
+        self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray
+    ) -> np.ndarray:
         """The same of lines: a point lies on a surface where its neighbours do, too."""
         after = np.append(runs[1:] == runs[:-1], False)
         before = np.roll(after, 1)
 
         def along(lies: np.ndarray) -> np.ndarray:
-            return lies & (np.roll(lies, 1) | ~before) & (np.roll(lies, -1) | ~after) & (before | after)
+            return (
+                lies
+                & (np.roll(lies, 1) | ~before)
+                & (np.roll(lies, -1) | ~after)
+                & (before | after)
+            )
 
         return self._lifted(places, half_widths, along)
 
-    def lifted_edges(self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray) -> np.ndarray:
+    def lifted_edges(
+        self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray
+    ) -> np.ndarray:
         """The same of edges of faces: a point lies on its face where a neighbour does."""
         after = np.append(runs[1:] == runs[:-1], False)
         before = np.roll(after, 1)
@@ -105,12 +120,16 @@ class Pile:
 
         return self._lifted(places, half_widths, near)
 
-    def _lifted(self, places: np.ndarray, radii: np.ndarray, decide: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    def _lifted(
+        self, places: np.ndarray, radii: np.ndarray, decide: Callable[[np.ndarray], np.ndarray]
+    ) -> np.ndarray:
         out = places.copy()
         out[:, 2] -= _LIFT * self._view.span
         if self._surfaces is not None and len(places):
             rise, lies = self._surfaces.under(places, self._view.span)
-            out[:, 2] -= np.where(decide(lies), self._surfaces.limited(rise * (1.0 + radii), self._view.span), 0.0)
+            out[:, 2] -= np.where(
+                decide(lies), self._surfaces.limited(rise * (1.0 + radii), self._view.span), 0.0
+            )
         return out
 
     @property
@@ -134,19 +153,31 @@ class Pile:
         self._put(faces, first, colors)
 
     def add_polygons(
-        self, points: np.ndarray, faces: np.ndarray, colors: np.ndarray, sizes: np.ndarray | None = None
+        self,
+        points: np.ndarray,
+        faces: np.ndarray,
+        colors: np.ndarray,
+        sizes: np.ndarray | None = None,
     ) -> None:
-        """The same with points in data coordinates; of polygons of given sizes, one with a bad corner is left out."""
+        """The same with points in data coordinates.
+
+        Of polygons of given sizes, those with a corner that is not finite are left out.
+        """
         first = self._take(len(points), colors)
         clip = self._clip[first : self._used]
         for k in range(0, len(points), _CHUNK):
-            self._view.clip(self._view.screen(points[k : k + _CHUNK]), clip[k : k + _CHUNK], self._rank)
+            self._view.clip(
+                self._view.screen(points[k : k + _CHUNK]), clip[k : k + _CHUNK], self._rank
+            )
         if sizes is not None:
             drop_broken(clip, sizes)
         self._put(faces, first, colors)
 
     def add_picture(self, corners: np.ndarray, pixels: np.ndarray) -> None:
-        """Add a rectangle of pixels, (H, W, 4) uint8, between four corners, (4, 3), left top, right top, left bottom, right bottom."""
+        """Add a rectangle of pixels, (H, W, 4) uint8.
+
+        corners : (4, 3) places: left top, right top, left bottom, right bottom.
+        """
         white = np.full(4, 255, np.uint8)
         first = self._take(4, white)
         self._view.clip(corners, self._clip[first : self._used], self._rank)
@@ -171,14 +202,18 @@ class Pile:
         if look:
             looks = np.full(len(faces), look, np.int32)
         else:
-            alpha = colors[faces[:, 0], 3] if colors.ndim == 2 else np.broadcast_to(colors[3], len(faces))
+            alpha = (
+                colors[faces[:, 0], 3]
+                if colors.ndim == 2
+                else np.broadcast_to(colors[3], len(faces))
+            )
             looks = (alpha != 255).astype(np.int32)
             if not alpha.all():
                 faces, looks = faces[alpha > 0], looks[alpha > 0]
         self._faces.setdefault(self._artist, []).append((faces + np.int32(first), looks))
 
     def _take_faces(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all faces and what they look like, those that show at one depth first; let go of the parts."""
+        """Return all faces and looks, those that show at one depth first; let go of the parts."""
         total = sum(len(faces) for parts in self._faces.values() for faces, _ in parts)
         faces, looks, used = np.empty((total, 3), np.int32), np.empty(total, np.int32), 0
         for artist in sorted(self._faces, reverse=True):
@@ -188,7 +223,7 @@ class Pile:
         return faces, looks
 
     def draw(self) -> np.ndarray | None:
-        """Return the picture, (H, W, 4) uint8, straight alpha, top row first; None if it is empty. Once."""
+        """Return the picture, (H, W, 4) uint8, straight alpha, or None if it is empty; once."""
         if not self._faces:
             return None
         self._surfaces = None
@@ -202,7 +237,10 @@ class Pile:
         out = np.empty((region.height, region.width, 4), np.uint8)
         _native.draw_clip(
             *(self._clip[: self._used], self._colors[: self._used], faces, looks, uvs),
-            *([_texture(pixels) for pixels in self._textures], SAMPLES if len(faces) <= _MANY else _FEWER_SAMPLES),
+            *(
+                [_texture(pixels) for pixels in self._textures],
+                SAMPLES if len(faces) <= _MANY else _FEWER_SAMPLES,
+            ),
             *(resolve_backend(), resolve_threads(), out),
         )
         return out
@@ -210,7 +248,9 @@ class Pile:
 
 def _texture(pixels: np.ndarray):
     nearest, clamp = _native.FILTERS["nearest"], _native.WRAPS["clamp"]
-    return _native.NativeTexture(np.ascontiguousarray(pixels), False, nearest, clamp, clamp, 1, 0.0, False)
+    return _native.NativeTexture(
+        np.ascontiguousarray(pixels), False, nearest, clamp, clamp, 1, 0.0, False
+    )
 
 
 def drop_broken(places: np.ndarray, sizes: np.ndarray) -> None:

@@ -5,11 +5,13 @@ In: artists and the view. Out: triangles of their faces in the pile, then their 
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary, ref
+
 import numpy as np
 from matplotlib.path import Path
 
 from ...io.reading.triangulation import triangulate
-from ._colors import codes_of, cycled
+from ._colors import codes_of
 from ._limits import hidden_points
 from ._lines import draw_runs
 from ._pile import Pile, drop_broken
@@ -51,12 +53,28 @@ def draw_faces(pile: Pile, view: View, collection) -> None:
     if corners > 3 and (colors[:, 3] < 255).any():
         _draw_clear(pile, view, sizes, points, colors)
         return
-    triangles = triangulate(sizes, points).corners
+    triangles = _triangles_of(collection, sizes, points)
     colors = colors[0] if len(colors) == 1 else np.repeat(colors, sizes, 0)
     pile.add_polygons(points, triangles[::-1], colors, sizes)
 
 
-def _draw_clear(pile: Pile, view: View, sizes: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
+#: The triangles of collections drawn before, with the polygons that they were cut from.
+_cut: WeakKeyDictionary = WeakKeyDictionary()
+
+
+def _triangles_of(collection, sizes: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Return the triangles of polygons, which are cut once, unless some corners are left out."""
+    faces = collection._faces
+    if not np.may_share_memory(faces, points):
+        return triangulate(sizes, points).corners
+    if collection not in _cut or _cut[collection][0]() is not faces:
+        _cut[collection] = ref(faces), triangulate(sizes, points).corners
+    return _cut[collection][1]
+
+
+def _draw_clear(
+    pile: Pile, view: View, sizes: np.ndarray, points: np.ndarray, colors: np.ndarray
+) -> None:
     """Add polygons that are cut on the page, so that none is laid over itself."""
     places = view.screen(points)
     drop_broken(places, sizes)
@@ -96,12 +114,15 @@ def _uncrossed(places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         added.append(0.5 * (start + s[:, None] * along + other + t[:, None] * across)[found])
         middle = count + np.arange(len(found))
         count += len(found)
-        triangles += [np.stack([4 * found + b, 4 * found + c, middle], 1), np.stack([4 * found + d, 4 * found + a, middle], 1)]
+        triangles += [
+            np.stack([4 * found + b, 4 * found + c, middle], 1),
+            np.stack([4 * found + d, 4 * found + a, middle], 1),
+        ]
     return np.concatenate(quads), np.concatenate(added), np.concatenate(triangles).astype(np.int32)
 
 
 def remember_grid(surface, shape: tuple[int, ...]) -> None:
-    """Note that a surface has all cells of a grid, of so many rows and columns of points, in order."""
+    """Note that a surface has all cells of a grid of so many rows and columns of points."""
     rows, columns = shape
     faces = surface._faces
     if faces.shape == ((rows - 1) * (columns - 1), 4, 3) and not np.any(surface._invalid_vertices):
@@ -109,14 +130,22 @@ def remember_grid(surface, shape: tuple[int, ...]) -> None:
 
 
 def _grid_of(surface) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return the points of a surface's grid, (V, 3), and triangles; None if it has none, or hidden points."""
+    """Return the points of a surface's grid, (V, 3), and triangles; None if some are hidden."""
     faces, shape = getattr(surface, "_engine3d_grid", (None, (0, 0)))
-    if faces is not surface._faces or faces is None or hidden_points(faces[:1], surface) is not None:
+    if (
+        faces is not surface._faces
+        or faces is None
+        or hidden_points(faces[:1], surface) is not None
+    ):
         return None
     rows, columns = shape
     cells, points = faces.reshape(rows - 1, columns - 1, 4, 3), np.empty((rows, columns, 3))
     points[:-1, :-1] = cells[:, :, 0]
-    points[:-1, -1], points[-1, -1], points[-1, :-1] = cells[:, -1, 1], cells[-1, -1, 2], cells[-1, :, 3]
+    points[:-1, -1], points[-1, -1], points[-1, :-1] = (
+        cells[:, -1, 1],
+        cells[-1, -1, 2],
+        cells[-1, :, 3],
+    )
     number = np.arange(rows * columns, dtype=np.int32).reshape(shape)
     triangles = np.empty((rows - 1, columns - 1, 2, 3), np.int32)
     triangles[..., 0], triangles[..., 0, 1] = number[:-1, :-1, None], number[:-1, 1:]
@@ -143,7 +172,7 @@ def draw_edges(pile: Pile, view: View, collection) -> None:
 
 
 def _polygons_of(collection) -> tuple[np.ndarray, np.ndarray]:
-    """Return how many corners polygons have, and all corners, (V, 3); hidden ones are not a number."""
+    """Return the sizes of polygons, and all corners, (V, 3); hidden ones are not a number."""
     faces, codes = collection._faces, collection._codes3d
     count, corners = faces.shape[:2]
     sizes = np.full(count, corners)

@@ -36,10 +36,13 @@ class Surfaces:
         return np.minimum(rise, _MOST * span)
 
     def under(self, places: np.ndarray, span: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return the rise of the surface for each place, depth a pixel, and whether the place lies on it."""
+        """Return the rise of the surface at places, depth a pixel, and which lie on it."""
         rise, gap = np.zeros(len(places)), np.full(len(places), np.inf)
         width, height = self._size
-        column, row = (np.nan_to_num(np.floor(places[:, k]), nan=-9.0, posinf=-9.0, neginf=-9.0) for k in (0, 1))
+        column, row = (
+            np.nan_to_num(np.floor(places[:, k]), nan=-9.0, posinf=-9.0, neginf=-9.0)
+            for k in (0, 1)
+        )
         for right, down in _AROUND:
             x, y = column + right, row + down
             inside = np.flatnonzero((x >= 0) & (x < width) & (y >= 0) & (y < height))

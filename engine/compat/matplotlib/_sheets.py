@@ -41,10 +41,18 @@ class Painter:
         box : what was painted lies within, but for a few pixels: left, bottom, right, top.
         """
         region, height = self._view.region, self._size[1]
-        left, right = max(region.left, box[0] - _MARGIN, 0), min(region.left + region.width, box[2] + _MARGIN)
-        bottom, top = max(region.bottom, box[1] - _MARGIN, 0), min(region.bottom + region.height, box[3] + _MARGIN)
+        left, right = (
+            max(region.left, box[0] - _MARGIN, 0),
+            min(region.left + region.width, box[2] + _MARGIN),
+        )
+        bottom, top = (
+            max(region.bottom, box[1] - _MARGIN, 0),
+            min(region.bottom + region.height, box[3] + _MARGIN),
+        )
         pixels, found = np.asarray(self.renderer.buffer_rgba()), None
-        inside = pixels[max(height - int(top), 0) : height - int(bottom), int(left) : max(int(right), 0)]
+        inside = pixels[
+            max(height - int(top), 0) : height - int(bottom), int(left) : max(int(right), 0)
+        ]
         used = inside[..., 3] > 0
         if used.any():
             y, x = np.flatnonzero(used.any(1)), np.flatnonzero(used.any(0))
@@ -55,7 +63,9 @@ class Painter:
         return found
 
 
-def draw_texts(pile: Pile, view: View, texts: list[tuple[int, Text3D]], painter: Painter) -> list[Text3D]:
+def draw_texts(
+    pile: Pile, view: View, texts: list[tuple[int, Text3D]], painter: Painter
+) -> list[Text3D]:
     """Add those texts that something hides in part; each is as deep as its place.
 
     Parameters
@@ -68,11 +78,17 @@ def draw_texts(pile: Pile, view: View, texts: list[tuple[int, Text3D]], painter:
     texts : list of Text3D
         Those that nothing hides, from far to near: they may stay text.
     """
-    places = [view.screen(np.array([[float(v) for v in text.get_position_3d()]])) for _, text in texts]
-    shown = [(float(place[0, 2]), *text) for place, text in zip(places, texts, strict=True) if np.isfinite(place).all()]
+    places = [
+        view.screen(np.array([[float(v) for v in text.get_position_3d()]])) for _, text in texts
+    ]
+    shown = [
+        (float(place[0, 2]), *text)
+        for place, text in zip(places, texts, strict=True)
+        if np.isfinite(place).all()
+    ]
     depths = pile.depths() if shown else np.empty((0, 0))
     free: list[Text3D] = []
-    for depth, number, text in sorted(shown, key=lambda one: (one[0], -one[1])):
+    for _, number, text in sorted(shown, key=lambda one: (one[0], -one[1])):
         text.draw(painter.renderer)
         painted = painter.taken()
         if painted is None:
@@ -128,7 +144,9 @@ def draw_paths(pile: Pile, view: View, painter: Painter, paths: list[FlatPath]) 
             gc.set_hatch(path.hatch)
             gc.set_hatch_color(tuple(path.edge))
         page = Path(path.places[:, :2] * (1.0, -1.0) + origin, path.codes)
-        painter.renderer.draw_path(gc, page, IdentityTransform(), tuple(path.face) if path.face[3] > 0 else None)
+        painter.renderer.draw_path(
+            gc, page, IdentityTransform(), tuple(path.face) if path.face[3] > 0 else None
+        )
         gc.restore()
     finite = places[np.isfinite(places).all(1), :2] * (1.0, -1.0) + origin
     if (painted := painter.taken((*finite.min(0), *finite.max(0)))) is not None:
@@ -154,7 +172,12 @@ def _plane_of(places: np.ndarray) -> tuple[float, float, float] | None:
     return float(origin[2] - across * origin[0] - down * origin[1]), float(across), float(down)
 
 
-def _corners(pixels: np.ndarray, left: int, top: int, plane: tuple[float, float, float]) -> np.ndarray:
+def _corners(
+    pixels: np.ndarray, left: int, top: int, plane: tuple[float, float, float]
+) -> np.ndarray:
     height, width = pixels.shape[:2]
-    x, y = np.array([0, width, 0, width]) + float(left), np.array([0, 0, height, height]) + float(top)
+    x, y = (
+        np.array([0, width, 0, width]) + float(left),
+        np.array([0, 0, height, height]) + float(top),
+    )
     return np.stack([x, y, plane[0] + plane[1] * x + plane[2] * y], 1)

@@ -119,7 +119,10 @@ def _joins(points, incoming, outgoing, join: str) -> Stroke:
 
 
 def _round_caps(normal, along, before, after) -> list[Stroke]:
-    first, last = np.flatnonzero((before < 0) & (after >= 0)), np.flatnonzero((before >= 0) & (after < 0))
+    first, last = (
+        np.flatnonzero((before < 0) & (after >= 0)),
+        np.flatnonzero((before >= 0) & (after < 0)),
+    )
     a, b = after[first], before[last]
     return [
         _fans(first, _arc(normal[a], -normal[a], -along[a], 3)),
@@ -128,14 +131,16 @@ def _round_caps(normal, along, before, after) -> list[Stroke]:
 
 
 def _arc(start: np.ndarray, end: np.ndarray, middle: np.ndarray, steps: int) -> np.ndarray:
-    """Return directions from start to end, (N, 2**steps + 1, 2), by halving; middle: of half turns."""
+    """Return directions from start to end, (N, 2**steps + 1, 2); middle: that of half turns."""
     directions = [start, end]
     for step in range(steps):
         finer = [directions[0]]
         for one, other in zip(directions[:-1], directions[1:], strict=True):
             half = one + other
             length = np.sqrt(half[:, 0] ** 2 + half[:, 1] ** 2)[:, None]
-            half = np.where(length > 1e-3, half / np.maximum(length, 1e-3), middle if step == 0 else one)
+            half = np.where(
+                length > 1e-3, half / np.maximum(length, 1e-3), middle if step == 0 else one
+            )
             finer += [half, other]
         directions = finer
     return np.stack(directions, 1)
@@ -147,12 +152,16 @@ def _fans(points: np.ndarray, arc: np.ndarray) -> Stroke:
     k = np.arange(1, corners, dtype=np.int32)
     fan = np.stack([np.zeros_like(k), k, k + 1], 1)
     first = (corners + 1) * np.arange(count, dtype=np.int32)[:, None, None]
-    return Stroke(np.repeat(points, corners + 1), offset.reshape(-1, 2), (first + fan).reshape(-1, 3))
+    return Stroke(
+        np.repeat(points, corners + 1), offset.reshape(-1, 2), (first + fan).reshape(-1, 3)
+    )
 
 
 def _together(parts: list[Stroke]) -> Stroke:
     starts = np.cumsum([0, *(len(part.point) for part in parts)])
-    triangles = [part.triangles + np.int32(start) for part, start in zip(parts, starts[:-1], strict=True)]
+    triangles = [
+        part.triangles + np.int32(start) for part, start in zip(parts, starts[:-1], strict=True)
+    ]
     return Stroke(
         np.concatenate([part.point for part in parts]),
         np.concatenate([part.offset for part in parts]),
@@ -225,7 +234,11 @@ def dashed(
     if not found:
         return places[:0], runs[:0], np.empty(0, int)
     numbers = np.repeat(np.arange(len(found)), [len(one) for one, _ in found])
-    return np.concatenate([one for one, _ in found]), numbers, np.concatenate([source for _, source in found])
+    return (
+        np.concatenate([one for one, _ in found]),
+        numbers,
+        np.concatenate([source for _, source in found]),
+    )
 
 
 def _dashes_of(places, first: int, pattern, start: float) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -43,7 +43,9 @@ class View:
     def _fit_depths(self, low: np.ndarray, high: np.ndarray) -> None:
         """Choose how depths are counted from the box of the data."""
         ends = np.array([low, high])
-        corners = np.array([[ends[i, 0], ends[j, 1], ends[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+        corners = np.array(
+            [[ends[i, 0], ends[j, 1], ends[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+        )
         _, _, z, w = self._multiply(self._scaled(corners))
         self._least_w = max(float(np.max(w)), 1e-300) * _LEAST_W
         # Of what lies behind the eye, nothing is seen.
@@ -94,7 +96,7 @@ class View:
         return out
 
     def clip(self, places: np.ndarray, out: np.ndarray, nearer: float) -> None:
-        """Write clip coordinates, (N, 4) float32, of places on the screen, (N, 3), by so much nearer."""
+        """Write clip coordinates, (N, 4), of places on the screen, (N, 3), by so much nearer."""
         with np.errstate(over="ignore", invalid="ignore"):
             out[:, 0] = places[:, 0] * (2.0 / self.region.width) - 1.0
             out[:, 1] = 1.0 - places[:, 1] * (2.0 / self.region.height)

@@ -10,9 +10,11 @@ from mpl_toolkits.mplot3d import art3d, axes3d
 
 from ...errors import warn
 from ._blocks import Voxels, bar_polygons, colors_at, voxel_faces
-from ._known import kind_of, looks_solid, reason_against
+from ._known import LINE, SCATTER, kind_of, reason_against, stands_in_space
 from ._picture import Drawn, Picture, Words
 from ._polygons import remember_grid
+
+_OF_BARS = ("x", "y", "z", "dx", "dy", "dz", "color", "zsort", "shade", "lightsource")
 
 
 class Axes3D(axes3d.Axes3D):
@@ -45,7 +47,7 @@ class Axes3D(axes3d.Axes3D):
             if not artist.get_visible() or artist.get_animated():
                 others.append(artist)
             elif kind is None:
-                if looks_solid(artist):
+                if stands_in_space(artist):
                     _warn(artist, "its class is unknown")
                 others.append(artist)
             elif reason := reason_against(artist, kind, self):
@@ -61,36 +63,51 @@ class Axes3D(axes3d.Axes3D):
         remember_grid(surface, np.broadcast(X, Y, Z).shape)
         return surface
 
-    def bar3d(self, x, y, z, dx, dy, dz, color=None, zsort="average", shade=True, lightsource=None, *args, **kwargs):
+    def bar3d(self, *args, **kwargs):
         """Draw boxes; see `mpl_toolkits.mplot3d.axes3d.Axes3D.bar3d`."""
-        plain = (x, y, z, dx, dy, dz)
-        if args or "data" in kwargs or not all(np.ndim(one) < 2 for one in plain):
-            return super().bar3d(*plain, color, zsort, shade, lightsource, *args, **kwargs)
+        given = dict(zip(_OF_BARS, args, strict=False)) | kwargs
+        place = [given.pop(name, None) for name in _OF_BARS[:6]]
+        color = given.pop("color", None)
+        if color is None:
+            color = self._get_patches_for_fill.get_next_color()
+        if (
+            len(args) > len(_OF_BARS)
+            or "data" in given
+            or any(one is None or np.ndim(one) > 1 for one in place)
+        ):
+            return super().bar3d(*args, **kwargs)
         had_data = self.has_data()
-        arrays = np.broadcast_arrays(np.atleast_1d(x), *plain[1:])
+        place[0] = np.atleast_1d(place[0])
+        arrays = np.broadcast_arrays(*place)
         low, size = np.stack(arrays[:3], -1).astype(float), np.stack(arrays[3:], -1).astype(float)
-        given = [self._get_patches_for_fill.get_next_color()] if color is None else color
-        rgba = mcolors.to_rgba_array(given)
+        rgba = mcolors.to_rgba_array(color)
         if len(rgba) not in (1, len(low)) or not len(low):
-            return super().bar3d(*plain, given, zsort, shade, lightsource, **kwargs)
-        faces = np.repeat(rgba, 6 * len(low) // len(rgba), 0)
-        bars = art3d.Poly3DCollection(
-            bar_polygons(low, size), zsort=zsort, facecolors=faces, shade=shade, lightsource=lightsource, **kwargs
-        )
+            return super().bar3d(*place, color, **given)
+        given["facecolors"] = np.repeat(rgba, 6 * len(low) // len(rgba), 0)
+        bars = art3d.Poly3DCollection(bar_polygons(low, size), **{"shade": True, **given})
         self.add_collection3d(bars, autolim=False)
         high = low + size
         self.auto_scale_xyz(*((low[:, k].min(), high[:, k].max()) for k in range(3)), had_data)
         return bars
 
-    def voxels(self, *args, facecolors=None, edgecolors=None, shade=True, lightsource=None, **kwargs):
+    def voxels(
+        self, *args, facecolors=None, edgecolors=None, shade=True, lightsource=None, **kwargs
+    ):
         """Draw voxels; see `mpl_toolkits.mplot3d.axes3d.Axes3D.voxels`.
 
-        They are one collection until one of the returned polygons is asked for; then each is its own.
+        They are one collection until one of the returned polygons is asked for.
         """
-        xyz, filled = (args[:3], args[3]) if len(args) == 4 else (None, args[0] if len(args) == 1 else None)
+        xyz, filled = (
+            (args[:3], args[3]) if len(args) == 4 else (None, args[0] if len(args) == 1 else None)
+        )
         if np.ndim(filled) != 3:
             return super().voxels(
-                *args, facecolors=facecolors, edgecolors=edgecolors, shade=shade, lightsource=lightsource, **kwargs
+                *args,
+                facecolors=facecolors,
+                edgecolors=edgecolors,
+                shade=shade,
+                lightsource=lightsource,
+                **kwargs,
             )
         filled = np.asarray(filled, bool)
         if facecolors is None:
@@ -108,7 +125,12 @@ class Axes3D(axes3d.Axes3D):
             part = slice(first, last)
             colors = {} if edges is None else {"edgecolors": edges[part]}
             return art3d.Poly3DCollection(
-                polygons[part], facecolors=faces[part], shade=shade, lightsource=lightsource, **colors, **kwargs
+                polygons[part],
+                facecolors=faces[part],
+                shade=shade,
+                lightsource=lightsource,
+                **colors,
+                **kwargs,
             )
 
         whole = None
@@ -120,8 +142,10 @@ class Axes3D(axes3d.Axes3D):
     def pick(self, mouseevent) -> None:
         """Let artists be picked; see `matplotlib.artist.Artist.pick`."""
         for artist in self._children:
-            if kind_of(artist) in ("polygons", "segments", "contours", "patch") and artist.pickable():
-                artist.do_3d_projection()
+            # Those are projected whenever they are drawn.
+            if artist.pickable() and kind_of(artist) not in (None, LINE, SCATTER):
+                if hasattr(artist, "do_3d_projection"):
+                    artist.do_3d_projection()
         super().pick(mouseevent)
 
 

@@ -72,19 +72,6 @@ def filled_between(ax):
     return [wall(ax), sheet(RED, *(np.stack([low[k], high[k]]) for k in range(3)))]
 
 
-def contours_on_three_sides(ax):
-    x, y = np.meshgrid(np.linspace(-1, 1, 21), np.linspace(-1, 1, 21))
-    for color, zdir in ((RED, "x"), (BLUE, "y"), (GREEN, "z")):
-        u, v, w = {"x": (0 * x, x, y), "y": (x, 0 * x, y), "z": (x, y, 0 * x)}[zdir]
-        if zdir == "x":
-            ax.contourf(x, x, y, levels=[-2, 2], colors=[color], zdir="x", offset=0.2)
-        elif zdir == "y":
-            ax.contourf(x, y, y, levels=[-2, 2], colors=[color], zdir="y", offset=0.2)
-        else:
-            ax.contourf(x, y, x, levels=[-2, 2], colors=[color], zdir="z", offset=0.2)
-    return [ax and sheet(GREEN, U, V, 0 * U + 0.2)]
-
-
 def holes_in_contours(ax):
     x, y = np.meshgrid(np.linspace(-1, 1, 41), np.linspace(-1, 1, 41))
     ax.contourf(x, y, np.maximum(abs(x), abs(y)), levels=[0.5, 2], colors=[RED], offset=0.3)
@@ -143,18 +130,13 @@ def errorbars_round_wall(ax):
     ]
 
 
-def squares_and_stars(ax):
+def square_markers(ax):
     x, z = (g.ravel() for g in np.meshgrid(np.linspace(-0.7, 0.7, 3), np.linspace(-0.7, 0.7, 3)))
     y = np.where(np.arange(9) % 2, 0.4, -0.4)
     ax.plot(x, y, z, "s", color=RED, markersize=16, markeredgewidth=0)
-    size = 8 * points_to_pixels(ax)
     places = np.stack([x, y, z], -1)[:, None]
-    return [wall(ax), Shape(RED, places, size - 1), Shape(RED, places, 1.5 * size, certain=False)][
-        :2
-    ] and [
-        wall(ax, y=0.0),
-        Shape(RED, places, size * 0.98),
-    ]
+    corners = Shape(RED, places, 12 * points_to_pixels(ax), certain=False)
+    return [wall(ax), Shape(RED, places, 7.5 * points_to_pixels(ax)), corners]
 
 
 def mapped_line_collection(ax):
@@ -248,7 +230,7 @@ SCENES = {
         holes_in_contours,
         concave_polygons,
         errorbars_round_wall,
-        squares_and_stars,
+        square_markers,
         mapped_line_collection,
         steep_lens,
         seen_from_below,

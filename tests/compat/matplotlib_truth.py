@@ -76,7 +76,7 @@ def probes_of(ax, shapes: list[Shape], count: int = 40) -> list[Probe]:
     span = np.ptp(every[:, 2])
     low, high = every[:, :2].min(0), every[:, :2].max(0)
     contested, plain = [], []
-    for x, y in np.floor(rng.uniform(low, high, (4000, 2))).astype(int):
+    for x, y in np.floor(rng.uniform(low, high, (500, 2))).astype(int):
         answers = {
             _answer(placed, shapes, x, y, dx, dy, rim, span)
             for dx in (-1.5, 0, 1.5)
@@ -96,10 +96,10 @@ def _answer(placed, shapes, x, y, dx, dy, rim, span):
     for places, shape in zip(placed, shapes, strict=True):
         depths = depths_at(places, shape.radius + rim, spot)
         if len(depths):
-            if not shape.certain:
-                return "unsure"
-            found.append((float(depths.min()), shape.color))
-    found.sort(key=lambda one: one[0])
+            found.append((float(depths.min()), shape.color if shape.certain else None))
+    found.sort(key=lambda one: (one[0], one[1] is None))
+    if found and found[0][1] is None:
+        return "unsure"
     # Close ones must not decide, unless they look alike.
     if len(found) > 1 and found[1][0] - found[0][0] < 0.015 * span and found[0][1] != found[1][1]:
         return "unsure"

@@ -71,6 +71,25 @@ e3d_status e3d_rasterize(const float *clip, int32_t vertices, const int32_t *fac
                          int32_t width, int32_t height, e3d_cull cull, e3d_backend backend, int32_t threads,
                          int32_t *face_id, float *depth, float *barycentric);
 
+/* Triangles in clip space with colours. Blended ones lie over opaque ones and over each other, from far to near; of equal depth, the
+ * later lies behind (R83). */
+typedef struct e3d_clip_triangles {
+    const float *clip;      /* (vertices, 4) */
+    const uint8_t *colors;  /* (vertices, 4) straight RGBA */
+    const float *uvs;       /* (vertices, 2) or NULL */
+    int32_t vertices;
+    const int32_t *faces;   /* (faces_count, 3) */
+    int32_t faces_count;
+    const int32_t *looks;   /* (faces_count,) 0: opaque, 1: blended by alpha, 2 + k: blended, times texture k */
+    const e3d_texture *const *textures;
+    int32_t texture_count;
+} e3d_clip_triangles;
+
+/* Draws them on nothing, without light: colours are mixed as they are. samples: 1, or multisampling's 2, 4, 8, 16.
+ * rgba: (height, width, 4), straight alpha. */
+e3d_status e3d_draw_clip(const e3d_clip_triangles *drawn, int32_t width, int32_t height, int32_t samples,
+                         e3d_backend backend, int32_t threads, uint8_t *rgba);
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-__all__ = ["pyrender"]
+__all__ = ["matplotlib", "pyrender"]
 
 
 def __getattr__(name):

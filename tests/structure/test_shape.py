@@ -80,7 +80,7 @@ def package_of(name):
 
 
 def is_private(name):
-    is_foreign = name in ("_mode", "_replace")  # of Pillow's images, and of tuples
+    is_foreign = name in ("_mode", "_marker", "_replace")  # of images, lines, and tuples
     return name.startswith("_") and not name.startswith("__") and not is_foreign
 
 

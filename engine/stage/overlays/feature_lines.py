@@ -9,8 +9,8 @@ own faces do not hide them, while faces in front of them do.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -29,6 +29,8 @@ from ...model.scene.staged_scene import StagedScene
 from ...rendering.draw_list.closed_meshes import holes_of
 from ..views.viewpoint import Sphere
 
+#: Of a node that shows: slot, object, anchor, and the version of its pose.
+State: TypeAlias = tuple[int, int, int, int]
 #: Dark, and translucent: r, g, b, alpha, 0 to 255.
 COLOR = (24, 26, 30, 150)
 #: How much nearer the lines are drawn, as a fraction of their distance from the eye.
@@ -55,12 +57,12 @@ class FeatureLines:
         self._staged = staged
         self._of_all = of_all
         self._node: Node | None = None
-        # The edges of objects by number, and what they were found in.
-        self._edges: dict[int, _Edges] = {}
+        # The edges of objects by number, None if none are drawn, and what they were found in.
+        self._edges: dict[int, _Edges | None] = {}
         self._edges_of_what: Any = None
         self._watch = Watch()
-        # The ends of edges by slot, object, anchor and version of the pose; when they were found.
-        self._placed: dict[tuple[int, int, int, int], np.ndarray] = {}
+        # The ends of edges that each node draws, and when they were found.
+        self._placed: dict[State, np.ndarray] = {}
         self._found_in: Any = None
 
     def show(self, shown: bool) -> None:
@@ -98,10 +100,8 @@ class FeatureLines:
         posing = None if data.posing is None else data.posing.moment
         of = data.own.arrays, data.own.objects.version, posing, only_closed
         if of != self._edges_of_what or self._watch.found():
-            objects = data.own.objects.objects
-            self._edges_of_what, self._watch = of, Watch(_things(objects))
-            self._edges = self._edges_of_all(objects, only_closed)
-            self._placed.clear()
+            self._edges_of_what, self._watch = of, Watch(_things(data.own.objects.objects))
+            self._edges, self._placed = {}, {}
             self._found_in = None
         state = data.own.arrays.updated, data.hidden
         if state == self._found_in:
@@ -110,7 +110,7 @@ class FeatureLines:
         if self._node is not None:
             self._staged.beside.remove(self._node)
             self._node = None
-        ends = self._ends()
+        ends = self._ends(only_closed)
         if ends:
             material = Material(color=COLOR, alpha_mode="blend", unlit=True)
             made = np.concatenate(ends)
@@ -119,50 +119,51 @@ class FeatureLines:
             self._node = self._staged.beside.add(mesh, name="edges", cast_shadows=False)
             self._node.receive_shadows = False
 
-    def _ends(self) -> list[np.ndarray]:
+    def _ends(self, only_closed: bool) -> list[np.ndarray]:
         """Return the ends of edges, arrays of (2 E, 3) in world space; none if there are too many.
 
         Those of a node are kept until it moves.
         """
-        data = self._staged.data
-        arrays = data.own.arrays
-        columns = {name: column[: arrays.count] for name, column in arrays.columns.items()}
-        shows = columns["flags"] & SHOWN != 0
-        hidden = data.own.slots_of(data.hidden)
-        shows[hidden[hidden >= 0]] = False
-        edged = np.zeros(len(data.own.objects.objects) + 1, bool)  # the last one: of no object
-        edged[list(self._edges)] = True
-        slots = np.flatnonzero(shows & edged[columns["object"]])
-        slots = slots[np.argsort(columns["object"][slots], kind="stable")].astype(np.int32)
-        numbers = columns["object"][slots].tolist()
-        if sum(self._edges[number].count for number in numbers) > MOST_EDGES:
-            return []
-        if sum(self._edges[number].parts for number in numbers) > MOST_PARTS:
-            return []
-        anchors = columns["anchor"][slots]
-        placed = zip(
-            slots.tolist(),
-            numbers,
-            anchors.tolist(),
-            columns["world_version"][np.where(anchors < 0, slots, anchors)].tolist(),
-            strict=True,
-        )
+        arrays = self._staged.data.own.arrays
+        drawn, count, parts = [], 0, 0
+        for state in self._shown():
+            edges = self._edges_at(state[1], only_closed)
+            if edges is None:
+                continue
+            drawn.append((state, edges))
+            count, parts = count + edges.count, parts + edges.parts
+            if count > MOST_EDGES or parts > MOST_PARTS:
+                return []
         before, self._placed = self._placed, {}
-        for state in placed:
+        for state, edges in drawn:
             ends = before.get(state)
-            if ends is None:
-                ends = self._edges[state[1]].placed(arrays, state[0])
-            self._placed[state] = ends
+            self._placed[state] = edges.placed(arrays, state[0]) if ends is None else ends
         return [ends for ends in self._placed.values() if len(ends)]
 
-    def _edges_of_all(self, objects: Sequence[Any], only_closed: bool) -> dict[int, _Edges]:
-        """Return the edges of objects that are drawn, by number."""
-        found = {}
-        for number, obj in enumerate(objects):
+    def _shown(self) -> Iterator[State]:
+        """Return the states of the nodes that show, object by object."""
+        own = self._staged.data.own
+        columns = {name: column[: own.arrays.count] for name, column in own.arrays.columns.items()}
+        shows = (columns["flags"] & SHOWN != 0) & (columns["object"] >= 0)
+        hidden = own.slots_of(self._staged.data.hidden)
+        shows[hidden[hidden >= 0]] = False
+        slots = np.flatnonzero(shows)
+        slots = slots[np.argsort(columns["object"][slots], kind="stable")]
+        anchors = columns["anchor"][slots]
+        placing = np.where(anchors < 0, slots, anchors)
+        rows = slots, columns["object"][slots], anchors, columns["world_version"][placing]
+        return zip(*(row.tolist() for row in rows), strict=True)
+
+    def _edges_at(self, number: int, only_closed: bool) -> _Edges | None:
+        """Return the edges of an object that are drawn; None if none are."""
+        if number not in self._edges:
+            obj = self._staged.data.own.objects.objects[number]
             edges = None if obj is None else self._edges_of(obj)
-            if edges is not None and len(edges) and not (only_closed and not _is_closed(obj)):
-                found[number] = _Edges(as_shown(obj), edges.reshape(-1))
-        return found
+            if edges is None or not len(edges) or (only_closed and not _is_closed(obj)):
+                self._edges[number] = None
+            else:
+                self._edges[number] = _Edges(as_shown(obj), edges)
+        return self._edges[number]
 
     def _edges_of(self, obj: Any) -> np.ndarray | None:
         """Return the edges of an object's mesh that are drawn, (E, 2); None if none are."""
@@ -186,21 +187,20 @@ class _Edges:
         How many edges these are together.
     """
 
-    def __init__(self, shape: Any, corners: np.ndarray) -> None:
-        mesh: Mesh = getattr(shape, "mesh", shape)
-        self._ends = mesh.positions[corners]
-        is_many = isinstance(shape, InstancedMesh)
-        self._instances = instance_matrices(shape.poses) if is_many else None
-        self.parts = 1 if self._instances is None else len(self._instances)
-        self.count = self.parts * (len(corners) // 2)
+    def __init__(self, shape: Any, edges: np.ndarray) -> None:
+        self._shape, self._edges = shape, edges
+        self.parts = len(shape) if isinstance(shape, InstancedMesh) else 1
+        self.count = self.parts * len(edges)
 
     def placed(self, arrays: NodeArrays, slot: int) -> np.ndarray:
         """Return the ends (2 E, 3) of what a node draws, of edges both of whose ends are finite."""
-        pose = placing_poses(arrays, np.array([slot], np.int32))
-        if self._instances is not None:
-            pose = linalg.multiply(pose[0], self._instances)
+        mesh: Mesh = getattr(self._shape, "mesh", self._shape)
+        poses = placing_poses(arrays, np.array([slot], np.int32))
+        if isinstance(self._shape, InstancedMesh):
+            poses = linalg.multiply(poses[0], instance_matrices(self._shape.poses))
+        ends = mesh.positions[self._edges.reshape(-1)]
         with np.errstate(over="ignore", invalid="ignore"):
-            placed = [linalg.transform_points(one, self._ends) for one in pose]
+            placed = [linalg.transform_points(pose, ends) for pose in poses]
         return _finite(np.concatenate(placed))
 
 

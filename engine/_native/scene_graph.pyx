@@ -32,6 +32,24 @@ BOX = E3D_BOX
 OBJECT_BOX = E3D_OBJECT_BOX
 
 
+cdef extern from "Python.h":
+    int PyObject_GenericSetAttr(object, object, object) except -1
+
+
+cdef class FixedSlots:
+    """Base of classes with slots, whose ``_refuse(name)`` may say more of a name that cannot be assigned.
+
+    A ``__setattr__`` in Python would take as long as to assign most attributes.
+    """
+
+    def __setattr__(self, name, value):
+        try:
+            PyObject_GenericSetAttr(self, name, value)
+        except AttributeError:
+            self._refuse(name)
+            raise
+
+
 include "scene_shapes.pxi"
 include "item_boxes.pxi"
 

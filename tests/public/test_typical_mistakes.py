@@ -49,6 +49,7 @@ MISTAKES = [
     (assign(node, "position", (1, 2, 3)), "did you mean translation"),
     (assign(node, "lookAt", (1, 2, 3)), "look_at"),
     (assign(node, "anything", 1), "no attribute 'anything'"),
+    (assign(node, "translatoin", (1, 2, 3)), "did you mean translation"),
     (assign(lambda: e3d.Canvas((4, 4)), "pixel", 1), "did you mean pixels"),
     (lambda: node().visble, "no attribute 'visble'"),
     (lambda: scene().lights, "scene.nodes"),

@@ -178,3 +178,19 @@ outcome compare_rasterize(random_stream r, const run_plan *plan, const char *tit
     clip_triangles_destroy(&t);
     return result;
 }
+
+outcome compare_hashes(hash_of find, const void *input, const run_plan *plan, const char *title)
+{
+    outcome result = {.agrees = 1};
+    for (int k = 0; k < E3D_BACKEND_COUNT; k++)
+        for (int32_t t = 0; t < plan->thread_counts && plan->backends[k]; t++) {
+            uint64_t hash = find(input, (e3d_backend)k, plan->threads[t]);
+            result.hash = result.hash == 0 ? hash : result.hash;
+            if (hash != 0 && hash == result.hash)
+                continue;
+            result.agrees = 0;
+            if (title != NULL)
+                fprintf(stderr, "%s: %s with %d threads differs, or fails\n", title, e3d_backend_name((e3d_backend)k), (int)plan->threads[t]);
+        }
+    return result;
+}

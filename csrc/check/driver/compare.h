@@ -24,6 +24,11 @@ typedef struct run_plan {
     int32_t most_side; /* pictures are no wider and no higher; 0: as large as the scene says */
 } run_plan;
 
+/* The hash of what is made of an input; 0 where it fails or holds a NaN. */
+typedef uint64_t (*hash_of)(const void *input, e3d_backend backend, int32_t threads);
+
+/* Compares the hashes of one input. */
+outcome compare_hashes(hash_of find, const void *input, const run_plan *plan, const char *title);
 /* `title` (or NULL for silence) begins the lines that tell standard error what differs. */
 outcome compare_scene(random_stream r, const run_plan *plan, const char *title);
 /* The same scene, some of whose materials are masked or blended. */

@@ -17,6 +17,8 @@ from .layout import Rectangle
 #: X, Y and Z on a light background: the usual red, green and blue, darker.
 _DARK_AXES = ((196, 44, 44, 255), (30, 132, 44, 255), (44, 84, 214, 255))
 _ARROW = 7
+#: Reach of the strokes at the ends of dimensions, to either side.
+_TICK = 5
 _AXIS = 15
 _DIGITS = 4
 #: Height of a view's name in rows.
@@ -50,37 +52,47 @@ def draw_width(
     canvas: Canvas, left: float, right: float, y: float, text: str, theme: Theme, scale: int
 ) -> None:
     """Draw a dimension below a drawing, between two columns at a row."""
-    color = line_color(theme)
-    left, right = math.floor(left), math.ceil(right) - 1
-    reach = 5 * scale
-    for x in (left, right):
-        canvas.line(x, y - reach, x, y + reach, color, width=scale)
-    canvas.line(left, y, right, y, color, width=scale)
-    if right - left > 3 * _ARROW * scale:
-        for x, way in ((left, 1), (right, -1)):
-            _arrow(canvas, (x, y), (way, 0), color, scale)
+    first, last = _draw_length(canvas, left, right, y, theme, scale, is_level=True)
     width, _ = text_size(text, scale)
-    place = max((left + right + 1 - width) // 2, 2)
-    canvas.text(place, y + reach + 2 * scale, text, theme.text, scale=scale)
+    place = max((first + last + 1 - width) // 2, 2)
+    canvas.text(place, y + (_TICK + 2) * scale, text, theme.text, scale=scale)
 
 
 def draw_height(
     canvas: Canvas, top: float, bottom: float, x: float, text: str, theme: Theme, scale: int
 ) -> None:
     """Draw a dimension at the left of a drawing; its text reads from below."""
-    color = line_color(theme)
-    top, bottom = math.floor(top), math.ceil(bottom) - 1
-    reach = 5 * scale
-    for y in (top, bottom):
-        canvas.line(x - reach, y, x + reach, y, color, width=scale)
-    canvas.line(x, top, x, bottom, color, width=scale)
-    if bottom - top > 3 * _ARROW * scale:
-        for y, way in ((top, 1), (bottom, -1)):
-            _arrow(canvas, (x, y), (0, way), color, scale)
+    first, last = _draw_length(canvas, top, bottom, x, theme, scale, is_level=False)
     width, height = text_size(text, scale)
     # Not over the view's name.
-    y = max((top + bottom + 1 - width) // 2, _NAME * scale)
-    _text_upward(canvas, x - reach - 2 * scale - height, y, text, theme.text, scale)
+    y = max((first + last + 1 - width) // 2, _NAME * scale)
+    _text_upward(canvas, x - (_TICK + 2) * scale - height, y, text, theme.text, scale)
+
+
+def _draw_length(
+    canvas: Canvas,
+    start: float,
+    end: float,
+    place: float,
+    theme: Theme,
+    scale: int,
+    *,
+    is_level: bool,
+) -> tuple[int, int]:
+    """Draw a line between two columns at a row, or two rows at a column; return its ends."""
+
+    def at(along: float, across: float) -> tuple[float, float]:
+        return (along, across) if is_level else (across, along)
+
+    color, tick = line_color(theme), _TICK * scale
+    first, last = math.floor(start), math.ceil(end) - 1
+    for one in (first, last):
+        canvas.line(*at(one, place - tick), *at(one, place + tick), color, width=scale)
+    canvas.line(*at(first, place), *at(last, place), color, width=scale)
+    if last - first > 3 * _ARROW * scale:
+        for one, way in ((first, 1), (last, -1)):
+            _arrow(canvas, at(one, place), at(way, 0), color, scale)
+    return first, last
 
 
 def _arrow(canvas: Canvas, tip, way, color: Rgba, scale: int) -> None:

@@ -18,7 +18,7 @@ from ...errors import Engine3DError, FileFormatError, InvalidArgumentError, prin
 from ..reading.documents import Document
 from ..reading.limited_process import in_limited_process
 from ..reading.linked_files import LinkedFileError, LinkedFiles
-from ..reading.posed_parts import MAX_REPEATED, counts_of, document_objects
+from ..reading.posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
 from ..reading.reader_registry import Reader, find_reader
 from ..reading.sources import Source
 from ..reading.warning_list import WarningList
@@ -59,8 +59,6 @@ def read_here(source: Source, split: bool) -> Document:
     """Read a file with trimesh in this process."""
     import trimesh
 
-    from ..trimesh_conversion import scene_parts
-
     kind = source.extension.removeprefix(".")
     if kind not in trimesh.available_formats():
         raise FileFormatError(
@@ -68,6 +66,20 @@ def read_here(source: Source, split: bool) -> Document:
             source.path,
         )
     warnings = WarningList(source.path)
+    parts = _parts(trimesh, source, kind, split, warnings)
+    for part in parts:
+        if not part.mesh.has_normals:
+            part.mesh.crease_angle = source.crease_angle
+    objects = document_objects(source, parts, MAX_REPEATED + source.size, split)
+    return Document(kind, objects, counts=counts_of(objects), warnings=warnings.messages())
+
+
+def _parts(
+    trimesh: Any, source: Source, kind: str, split: bool, warnings: WarningList
+) -> list[PosedPart]:
+    """Return what trimesh reads; its errors become errors of the file."""
+    from ..trimesh_conversion import scene_parts
+
     try:
         with _said(warnings):
             loaded = trimesh.load(
@@ -77,7 +89,7 @@ def read_here(source: Source, split: bool) -> Document:
                 process=False,
             )
         scene = loaded if isinstance(loaded, trimesh.Scene) else trimesh.Scene(loaded)
-        parts = scene_parts(scene, warnings, near=split)
+        return scene_parts(scene, warnings, near=split)
     except InvalidArgumentError as error:
         raise FileFormatError(f"damaged: {error}", source.path) from error
     except (Engine3DError, MemoryError):
@@ -92,11 +104,6 @@ def read_here(source: Source, split: bool) -> Document:
             f"damaged, or no {kind} file (trimesh ended with {printable(reason[:_SAID])})",
             source.path,
         ) from error
-    for part in parts:
-        if not part.mesh.has_normals:
-            part.mesh.crease_angle = source.crease_angle
-    objects = document_objects(source, parts, MAX_REPEATED + source.size, split)
-    return Document(kind, objects, counts=counts_of(objects), warnings=warnings.messages())
 
 
 class _Teller(logging.Handler):

@@ -7,7 +7,7 @@ sine and cosine, so that the pictures have the same bytes on every machine.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from ...base import linalg
 
 Floats = NDArray[np.float64]
+#: The arguments of `panel` but its rays, and linear light.
+Shape = tuple[tuple[float, float, float], float, float, float]
+Color = tuple[float, float, float]
 
 
 def directions(height: int) -> tuple[Floats, Floats, Floats]:
@@ -87,3 +90,24 @@ def picture(channels: Sequence[Floats]) -> NDArray[np.float32]:
     for number, channel in enumerate(channels):
         out[:, :, number] = channel
     return out
+
+
+def room(
+    grey: Floats, panels: Iterable[tuple[Shape, Color]], rays: tuple[Floats, Floats, Floats]
+) -> NDArray[np.float32]:
+    """Return the picture, (H, W, 3) float32, of a warm grey room with panels.
+
+    Parameters
+    ----------
+    grey : ndarray
+        The room's light without panels, of each pixel.
+    panels : iterable of (Shape, (3,) tuple)
+        For each the arguments of `panel`, and its light.
+    rays : (3,) sequence of ndarray
+        Those of `directions`.
+    """
+    channels = [grey * tone for tone in (1.0, 0.99, 0.97)]
+    for shape, color in panels:
+        inside = panel(*shape, rays)
+        channels = [c + (light - c) * inside for c, light in zip(channels, color, strict=True)]
+    return picture(channels)

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ._directions import directions, panel, picture, ramp, toward
+from ._directions import directions, ramp, room, toward
 
 # Panels: centre, half width and height, width of the soft edge, radiance.
 _KEY = ((3.0, 2.6, 2.4), 1.0, 0.9, 0.15), (9.0, 8.8, 8.4)
@@ -51,8 +51,4 @@ def pixels(axes: Sequence[NDArray[np.float64]]) -> NDArray[np.float32]:
     walls = walls + 0.22 * ramp(-0.4, 0.9, 0.5 * x + 0.86 * z)  # lighter behind the viewer
     floor = 0.66 - 0.26 * ramp(-0.05, -1.0, y)
     grey = walls + (floor - walls) * ramp(0.12, -0.3, y)
-    channels = [grey * tone for tone in (1.0, 0.99, 0.97)]
-    for shape, color in (_KEY, _FILL, _RIM, _STRIP):
-        inside = panel(*shape, rays)
-        channels = [c + (light - c) * inside for c, light in zip(channels, color, strict=True)]
-    return picture(channels)
+    return room(grey, (_KEY, _FILL, _RIM, _STRIP), (rays[0], rays[1], rays[2]))

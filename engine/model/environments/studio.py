@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._directions import directions, panel, picture, ramp
+from ._directions import directions, ramp, room
 
 # Panels: centre, half width and height, width of the soft edge, radiance.
 _KEY = ((3.0, 2.4, 2.6), 1.5, 1.3, 0.15), (9.0, 8.8, 8.4)
@@ -20,8 +20,4 @@ def pixels() -> np.ndarray:
     walls = 0.16 + 0.22 * ramp(0.9, -0.15, y)  # darker above
     floor = 0.62 - 0.22 * ramp(-0.05, -1.0, y)
     grey = walls + (floor - walls) * ramp(0.12, -0.3, y)
-    channels = [grey * tone for tone in (1.0, 0.99, 0.97)]
-    for shape, color in (_KEY, _FILL, _RIM, _STRIP):
-        inside = panel(*shape, rays)
-        channels = [c + (light - c) * inside for c, light in zip(channels, color, strict=True)]
-    return picture(channels)
+    return room(grey, (_KEY, _FILL, _RIM, _STRIP), rays)

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..._native.loaders import frozen
-from ..._native.scene_graph import STATIC, VISIBLE
+from ..._native.scene_graph import STATIC, VISIBLE, FixedSlots
 from ...base import linalg
 from ...base.angles import angles
 from ...base.calls import checks_types
-from ...base.foreign_names import refuses_foreign_names
+from ...base.foreign_names import UnknownName, refuses_foreign_names
 from ...base.linalg.quaternions import quaternion_of_turns
 from ...base.numbers import floats, shown
 from ...base.validation import finite_floats, flag, matrix4, text, vector3
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 
 @refuses_foreign_names
-class Node:
+class Node(FixedSlots):
     """An object's place in a scene; made by `Scene.add`.
 
     ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
@@ -178,6 +178,11 @@ class Node:
         nodes = self._arrays.nodes
         below = (nodes[slot] for slot in self._arrays.children(self._slot))
         return tuple(node for node in below if node is not None)
+
+    def _refuse(self, name: str) -> None:
+        """Raise an error that suggests a name, if nodes do not have this one."""
+        if not hasattr(Node, name):
+            raise UnknownName(Node, name)
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Node belongs to its Scene: it cannot be copied or pickled")

@@ -1,7 +1,6 @@
 /* Random pictures behind glass: light and codes that seldom agree, in odd sizes. */
 #include "check/driver/scenes/behind_scene.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "e3d_behind.h"
@@ -41,8 +40,9 @@ static void random_picture(random_stream *r, seen *s)
 }
 
 /* The hash of the levels; 0 where it fails. */
-static uint64_t find(const seen *s, e3d_backend backend, int32_t threads)
+static uint64_t find(const void *input, e3d_backend backend, int32_t threads)
 {
+    const seen *s = input;
     size_t floats = e3d_behind_floats(s->picture.width, s->picture.height);
     float *levels = malloc(floats * sizeof *levels);
     if (!levels)
@@ -57,16 +57,5 @@ outcome compare_behind(random_stream r, const run_plan *plan, const char *title)
 {
     static seen s;
     random_picture(&r, &s);
-    outcome result = {.agrees = 1};
-    for (int k = 0; k < E3D_BACKEND_COUNT; k++)
-        for (int32_t t = 0; t < plan->thread_counts && plan->backends[k]; t++) {
-            uint64_t hash = find(&s, (e3d_backend)k, plan->threads[t]);
-            result.hash = result.hash == 0 ? hash : result.hash;
-            if (hash != 0 && hash == result.hash)
-                continue;
-            result.agrees = 0;
-            if (title != NULL)
-                fprintf(stderr, "%s: %s with %d threads differs, or fails\n", title, e3d_backend_name((e3d_backend)k), (int)plan->threads[t]);
-        }
-    return result;
+    return compare_hashes(find, &s, plan, title);
 }

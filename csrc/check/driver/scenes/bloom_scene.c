@@ -1,7 +1,6 @@
 /* Random light that glows: patches of any brightness, mostly below 1, in pictures of odd sizes. */
 #include "check/driver/scenes/bloom_scene.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "e3d_bloom.h"
@@ -36,8 +35,9 @@ static void random_glow(random_stream *r, glow *g)
 }
 
 /* The hash of the picture; 0 where it fails. */
-static uint64_t add(const glow *g, e3d_backend backend, int32_t threads)
+static uint64_t add(const void *input, e3d_backend backend, int32_t threads)
 {
+    const glow *g = input;
     static uint8_t color[4 * PIXELS];
     e3d_bloom bloom = g->bloom;
     size_t bytes = 4 * (size_t)bloom.width * (size_t)bloom.height;
@@ -56,16 +56,5 @@ outcome compare_bloom(random_stream r, const run_plan *plan, const char *title)
 {
     static glow g;
     random_glow(&r, &g);
-    outcome result = {.agrees = 1};
-    for (int k = 0; k < E3D_BACKEND_COUNT; k++)
-        for (int32_t t = 0; t < plan->thread_counts && plan->backends[k]; t++) {
-            uint64_t hash = add(&g, (e3d_backend)k, plan->threads[t]);
-            result.hash = result.hash == 0 ? hash : result.hash;
-            if (hash != 0 && hash == result.hash)
-                continue;
-            result.agrees = 0;
-            if (title != NULL)
-                fprintf(stderr, "%s: %s with %d threads differs, or fails\n", title, e3d_backend_name((e3d_backend)k), (int)plan->threads[t]);
-        }
-    return result;
+    return compare_hashes(add, &g, plan, title);
 }

@@ -3,7 +3,6 @@
 #include "check/driver/scenes/occlusion_scene.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "e3d_occlusion.h"
@@ -13,6 +12,8 @@ enum { SIDE = 140,
 
 typedef struct surfaces {
     float depth[PIXELS], normal[3 * PIXELS];
+    e3d_depth_picture picture;
+    float radius;
 } surfaces;
 
 static const float HOSTILE[] = {0.0f, -0.0f, -1.0f, 1e-40f, 1e-30f, 1e30f, 3e38f};
@@ -45,7 +46,7 @@ static void random_normals(random_stream *r, const e3d_depth_picture *picture, f
     }
 }
 
-static e3d_depth_picture random_picture(random_stream *r, surfaces *s)
+static void random_picture(random_stream *r, surfaces *s)
 {
     e3d_depth_picture picture = {.depth = s->depth, .normal = s->normal};
     picture.width = 1 + random_below(r, SIDE);
@@ -58,12 +59,15 @@ static e3d_depth_picture random_picture(random_stream *r, surfaces *s)
     picture.is_perspective = random_below(r, 2);
     random_depths(r, &picture, s->depth);
     random_normals(r, &picture, s->normal);
-    return picture;
+    s->picture = picture;
+    s->radius = random_float(r, 0.01f, 4.0f);
 }
 
 /* The hash of a picture's visibility, whose bytes are all written; 0 where it holds a NaN or fails. */
-static uint64_t find(e3d_backend backend, int32_t threads, const e3d_depth_picture *picture, float radius)
+static uint64_t find(const void *input, e3d_backend backend, int32_t threads)
 {
+    const surfaces *s = input;
+    const e3d_depth_picture *picture = &s->picture;
     static float visibility[PIXELS];
     size_t count = (size_t)picture->width * (size_t)picture->height, floats = e3d_occlusion_scratch(picture->width, picture->height);
     float *scratch = malloc(floats * sizeof *scratch);
@@ -71,7 +75,7 @@ static uint64_t find(e3d_backend backend, int32_t threads, const e3d_depth_pictu
         return 0;
     memset(visibility, 0x5A + threads, sizeof visibility);
     memset(scratch, 0x5A + threads, floats * sizeof *scratch);
-    e3d_status status = e3d_find_occlusion(backend, threads, picture, radius, scratch, visibility);
+    e3d_status status = e3d_find_occlusion(backend, threads, picture, s->radius, scratch, visibility);
     free(scratch);
     if (status != E3D_OK)
         return 0;
@@ -84,18 +88,6 @@ static uint64_t find(e3d_backend backend, int32_t threads, const e3d_depth_pictu
 outcome compare_occlusion(random_stream r, const run_plan *plan, const char *title)
 {
     static surfaces s;
-    e3d_depth_picture picture = random_picture(&r, &s);
-    float radius = random_float(&r, 0.01f, 4.0f);
-    outcome result = {.agrees = 1};
-    for (int k = 0; k < E3D_BACKEND_COUNT; k++)
-        for (int32_t t = 0; t < plan->thread_counts && plan->backends[k]; t++) {
-            uint64_t hash = find((e3d_backend)k, plan->threads[t], &picture, radius);
-            result.hash = result.hash == 0 ? hash : result.hash;
-            if (hash != 0 && hash == result.hash)
-                continue;
-            result.agrees = 0;
-            if (title != NULL)
-                fprintf(stderr, "%s: %s with %d threads differs, or is NaN\n", title, e3d_backend_name((e3d_backend)k), (int)plan->threads[t]);
-        }
-    return result;
+    random_picture(&r, &s);
+    return compare_hashes(find, &s, plan, title);
 }

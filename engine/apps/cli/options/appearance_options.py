@@ -30,38 +30,7 @@ def add_appearance(parser) -> None:
     group = parser.add_argument_group("look")
     group.add_argument("--mode", choices=MODES, help="what the pixels show; lit by default")
     group.add_argument("--unlit", action="store_true", help="the same as --mode unlit")
-    group.add_argument(
-        "--wireframe",
-        nargs="?",
-        const=WIREFRAMES[-1],
-        choices=WIREFRAMES,
-        help="draw the edges: overlay over the faces, only (or no value) without them",
-    )
-    group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")
-    group.add_argument(
-        "--hidden-lines",
-        action="store_true",
-        help="in a wireframe, draw the edges that faces hide as well",
-    )
-    group.add_argument(
-        "--line-width",
-        type=values.width,
-        metavar="PIXELS",
-        help="width of lines and edges, up to 256; see --size-unit",
-    )
-    group.add_argument(
-        "--line-color",
-        type=values.color,
-        metavar="COLOR",
-        help="colour of the edges; by default dark over faces, and in contrast to the background "
-        "without them",
-    )
-    group.add_argument(
-        "--point-size",
-        type=values.width,
-        metavar="PIXELS",
-        help="size of points, up to 256; by default larger the fewer points there are",
-    )
+    _add_lines(group)
     _add_line_shapes(group)
     _add_texture_filters(group)
     _add_smoothing(group)
@@ -71,6 +40,11 @@ def add_appearance(parser) -> None:
         help="which normals to shade with: the model's (auto, the default), one per vertex "
         "(smooth), one per face (flat), or one per face and one light, that of its middle (facet)",
     )
+    _add_visibility(group)
+
+
+def _add_visibility(group) -> None:
+    """Add what is drawn, and in which order."""
     group.add_argument(
         "--cull",
         choices=get_args(FrameCull),
@@ -128,6 +102,42 @@ def _add_smoothing(group) -> None:
         "--alpha-to-coverage",
         action=argparse.BooleanOptionalAction,
         help="with multisampling, masks have edges as smooth as those of faces; on by default",
+    )
+
+
+def _add_lines(group) -> None:
+    """Add edges, lines and points."""
+    group.add_argument(
+        "--wireframe",
+        nargs="?",
+        const=WIREFRAMES[-1],
+        choices=WIREFRAMES,
+        help="draw the edges: overlay over the faces, only (or no value) without them",
+    )
+    group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")
+    group.add_argument(
+        "--hidden-lines",
+        action="store_true",
+        help="in a wireframe, draw the edges that faces hide as well",
+    )
+    group.add_argument(
+        "--line-width",
+        type=values.width,
+        metavar="PIXELS",
+        help="width of lines and edges, up to 256; see --size-unit",
+    )
+    group.add_argument(
+        "--line-color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour of the edges; by default dark over faces, and in contrast to the background "
+        "without them",
+    )
+    group.add_argument(
+        "--point-size",
+        type=values.width,
+        metavar="PIXELS",
+        help="size of points, up to 256; by default larger the fewer points there are",
     )
 
 

@@ -50,6 +50,39 @@ def add(parser) -> None:
         action="store_true",
         help="stand several models in a row, upright and in their own sizes",
     )
+    _add_built_in(group)
+    group.add_argument(
+        "--texture",
+        metavar="FILE",
+        help="texture for a model without materials; by default an image of the same name "
+        "beside the model",
+    )
+    add_color(group)
+    _add_animation(group)
+    group.add_argument(
+        "--variant",
+        metavar="NAME",
+        help="which of the sets of materials that the model offers, by name or number",
+    )
+    group.add_argument(
+        "--crease-angle",
+        type=values.crease_angle,
+        metavar="DEGREES",
+        help="where a model has no normals, draw edges sharp whose faces meet at more than this; "
+        "35 by default, 180 makes all smooth, 0 all flat",
+    )
+    group.add_argument(
+        "--no-texture", action="store_true", help="leave textures out; light and colours stay"
+    )
+    group.add_argument(
+        "--verbose",
+        action="store_true",
+        help="print what is loaded and how long loading and each frame take",
+    )
+
+
+def _add_built_in(group) -> None:
+    """Add the options of built-in scenes."""
     group.add_argument(
         "--scene",
         choices=DEMO_CHOICES,
@@ -73,13 +106,10 @@ def add(parser) -> None:
         metavar="N",
         help="with --scene shapes: cut the edges of its sphere, box and floor into N parts",
     )
-    group.add_argument(
-        "--texture",
-        metavar="FILE",
-        help="texture for a model without materials; by default an image of the same name "
-        "beside the model",
-    )
-    add_color(group)
+
+
+def _add_animation(group) -> None:
+    """Add which of the model's animations shows, and when."""
     group.add_argument(
         "--animation-index",
         type=values.index,
@@ -91,26 +121,6 @@ def add(parser) -> None:
         type=values.number,
         metavar="T",
         help="seconds of the animation at which the model stands, or begins to play; 0 by default",
-    )
-    group.add_argument(
-        "--variant",
-        metavar="NAME",
-        help="which of the sets of materials that the model offers, by name or number",
-    )
-    group.add_argument(
-        "--crease-angle",
-        type=values.crease_angle,
-        metavar="DEGREES",
-        help="where a model has no normals, draw edges sharp whose faces meet at more than this; "
-        "35 by default, 180 makes all smooth, 0 all flat",
-    )
-    group.add_argument(
-        "--no-texture", action="store_true", help="leave textures out; light and colours stay"
-    )
-    group.add_argument(
-        "--verbose",
-        action="store_true",
-        help="print what is loaded and how long loading and each frame take",
     )
 
 

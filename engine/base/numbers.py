@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InvalidArgumentError
+from .foreign_arrays import on_host
 
 
 def real(value: Any) -> float:
@@ -37,9 +38,9 @@ def shown(value: Any) -> str:
 
 
 def as_array(value: Any, what: str) -> NDArray[Any]:
-    """Return an array of any dtype."""
+    """Return an array of any dtype; those of other libraries share their memory."""
     try:
-        return np.asarray(value)
+        return np.asarray(on_host(value, what))
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InvalidArgumentError(f"{what} is not an array: {error}") from None
 
@@ -59,6 +60,7 @@ def floats(value: Any, what: str) -> NDArray[np.float64]:
         wrong = bool(value) and value[0].__class__ is str  # NumPy would accept "1" as 1
     else:
         wrong = value is None or getattr(getattr(value, "dtype", None), "kind", "f") in "cmMSU"
+        value = on_host(value, what)
     if wrong:
         given = getattr(value, "dtype", None) or shown(value)
         raise InvalidArgumentError(f"{what} must be numbers, not {given}")

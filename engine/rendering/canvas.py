@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native import canvas as native
 from .._native.images import encode_png
+from ..base.foreign_arrays import is_foreign_array
 from ..base.image_size import sides_of
 from ..base.numbers import as_array, floats, real, shown
 from ..base.validation import FixedNames, choose, flag
@@ -71,6 +72,8 @@ class Canvas(FixedNames):
     def __init__(self, pixels: NDArray[np.uint8], /) -> None: ...
 
     def __init__(self, size: tuple[int, int] | NDArray[np.uint8]) -> None:
+        if is_foreign_array(size):
+            size = as_array(size, "pixels")
         if isinstance(size, np.ndarray) and size.ndim > 1:
             self._pixels: NDArray[np.uint8] = size
         else:

@@ -87,7 +87,8 @@ class Frame:
     """The result of rendering: the requested outputs as arrays.
 
     The arrays belong to the caller and never change, unless the frame is passed to
-    ``render(out=...)``. ``np.asarray(frame)`` is ``frame.color``.
+    ``render(out=...)``. ``np.asarray(frame)`` has the memory of ``frame.color``; so have
+    ``torch.from_dlpack(frame)`` and, from Python 3.12 on, ``memoryview(frame)``.
 
     Attributes
     ----------
@@ -198,6 +199,16 @@ class Frame:
         if copy:
             return np.array(self.color, dtype)
         return np.asarray(self.color, dtype)
+
+    def __buffer__(self, flags: int) -> memoryview:  # read from Python 3.12 on (PEP 688)
+        return memoryview(self.color)
+
+    def __dlpack__(self, **options: Any) -> Any:
+        export: Any = self.color.__dlpack__
+        return export(**{key: value for key, value in options.items() if value is not None})
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        return self.color.__dlpack_device__()
 
     def project(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the pixel positions of world points, and their distances from the camera.

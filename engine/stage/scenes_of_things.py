@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from ..base.foreign_arrays import is_foreign_array
+from ..base.numbers import as_array
 from ..io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
@@ -25,7 +27,7 @@ def scene_of(thing: Any) -> Scene | None:
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) array, or what trimesh holds
         A scene is returned unchanged. An array holds points. For a node, the new scene holds its
         visible subtree at its world poses, in its current deformation.
     """
@@ -34,6 +36,8 @@ def scene_of(thing: Any) -> Scene | None:
     if is_of_trimesh(thing):
         return scene_from_trimesh(thing)
     scene = Scene()
+    if is_foreign_array(thing):
+        thing = as_array(thing, "the points")
     if isinstance(thing, np.ndarray):
         if thing.ndim != 2 or thing.shape[1] != 3 or thing.dtype.kind not in "fiu":
             return None

@@ -183,8 +183,3 @@ def test_resources_in_archives(tmp_path):
     for name in ("b.obj", ""):
         with pytest.raises(FileAccessError, match="cannot read"):
             load_mesh(folder / name)
-
-
-def test_addresses_are_not_fetched():
-    with pytest.raises(FileAccessError, match="download the file"):
-        load_document("https://example.com/model.glb")

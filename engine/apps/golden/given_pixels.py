@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ...base.numbers import as_array
 from ...errors import InvalidArgumentError
 
 _KINDS = "biuf"
@@ -41,7 +42,7 @@ def as_pixels(picture: Any) -> np.ndarray:
         from .picture_files import image_pixels
 
         return image_pixels(picture)
-    pixels = np.asarray(getattr(picture, "pixels", picture))
+    pixels = as_array(getattr(picture, "pixels", picture), "a picture")
     if pixels.dtype.kind not in _KINDS or pixels.dtype.itemsize > 8:
         what = pixels.dtype if pixels.ndim else type(picture).__name__
         raise InvalidArgumentError(f"a picture holds numbers, and {what} is none of their types")

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ...base.foreign_arrays import is_foreign_array
 from ...errors import InvalidArgumentError, printable
 from ...stage.open_models import open_models
 from ...stage.viewed_scene import ViewedScene
@@ -33,7 +34,8 @@ def open_sources(sources: Any, root: str | os.PathLike[str] | None = None) -> li
         There is none, or one is something else.
     FileFormatError, FileAccessError
     """
-    is_several = isinstance(sources, Iterable) and not isinstance(sources, np.ndarray)
+    is_array = isinstance(sources, np.ndarray) or is_foreign_array(sources)
+    is_several = isinstance(sources, Iterable) and not is_array
     given = list(sources) if is_several and not is_file(sources) else [sources]
     if not given:
         raise InvalidArgumentError("a sheet needs a model")

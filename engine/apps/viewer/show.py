@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.calls import checks_types, keywords_of, refuse_unknown
+from ...base.foreign_arrays import is_foreign_array
 from ...base.image_size import check_size
-from ...base.numbers import shown
+from ...base.numbers import as_array, shown
 from ...choices import PixelFormat
 from ...errors import DisplayError, InvalidArgumentError
 from ...model.geometry.mesh import Mesh
@@ -122,6 +123,8 @@ def _in_a_kernel() -> bool:
 def _show(thing, size, format, settings: Settings, **how: Any) -> None:
     size = None if size is None else check_size(size)
     viewed = None
+    if is_foreign_array(thing) and not isinstance(thing, Frame):
+        thing = as_array(thing, "thing")
     if not isinstance(thing, np.ndarray):
         viewed = viewed_thing(thing, **how)
     if viewed is None:

@@ -10,9 +10,9 @@ from __future__ import annotations
 import re
 
 from ...errors import FileFormatError
+from ..addresses.linked_urls import linked_files
 from ..reading.documents import Document, SceneRecord
 from ..reading.json_values import JsonValue, parsed_json
-from ..reading.linked_files import LinkedFiles
 from ..reading.posed_parts import MAX_REPEATED, counts_of, document_objects
 from ..reading.reader_registry import Reader
 from ..reading.sources import Source
@@ -40,7 +40,7 @@ def read_scene_file(source: Source, split: bool = False) -> Document:
     for key in root.members():
         if key not in ("format", "version", "scene", *LISTS):
             warnings.add(f"{shown(key)} is not known")
-    files = LinkedFiles.of(source)
+    files = linked_files(source)
     looks = SceneLooks(source, root, files, warnings)
     meshes = SceneMeshes(source, looks, files, warnings)
     record = _record(source, root, looks, meshes)

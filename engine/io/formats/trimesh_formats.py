@@ -15,9 +15,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
+from ..addresses.linked_urls import linked_files
 from ..reading.documents import Document
 from ..reading.limited_process import in_limited_process
-from ..reading.linked_files import LinkedFileError, LinkedFiles
+from ..reading.linked_files import LinkedFileError
 from ..reading.posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
 from ..reading.reader_registry import Reader, find_reader
 from ..reading.sources import Source
@@ -139,7 +140,7 @@ def _check_beginning(source: Source, kind: str) -> None:
 
 def _resolver(trimesh: Any, source: Source, warnings: WarningList) -> Any:
     """Return a resolver that gives trimesh the images beside the model, and nothing else."""
-    files = LinkedFiles.of(source, warnings)
+    files = linked_files(source, warnings)
 
     class FolderResolver(trimesh.resolvers.Resolver):  # type: ignore[misc]  # it has no types
         def __init__(self) -> None:

@@ -102,11 +102,6 @@ class LinkedFiles:
         self._listings: dict[str, dict[str, str]] = {}
         self._failures = 0
 
-    @classmethod
-    def of(cls, source: Source, warnings: WarningList | None = None) -> LinkedFiles:
-        """Return the linked files of a model."""
-        return cls(source.folder, source.root, warnings)
-
     def find(self, name: str, folder: str | None = None) -> str:
         """Return the path of the file that ``name`` refers to.
 

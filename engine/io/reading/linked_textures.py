@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ...errors import Engine3DError
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
+from ..addresses.linked_urls import linked_files
 from ..formats.radiance_pictures import LIGHT_EXTENSIONS
 from .companion_textures import companion_texture
 from .linked_files import LinkedFiles
@@ -72,7 +73,7 @@ def give_companion_texture(
         return
     name = shown(os.path.basename(path))
     try:
-        texture = _read_texture(LinkedFiles.of(source), path, "repeat")
+        texture = _read_texture(linked_files(source), path, "repeat")
     except Engine3DError as error:
         warnings.add(f"texture {name} beside the model left out: {error}")
         return

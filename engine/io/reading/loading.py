@@ -50,8 +50,9 @@ def load_mesh(
     Parameters
     ----------
     path : str, path-like, bytes, binary file object or Traversable
-        See `engine3d.loaders.formats` for the formats. Files compressed by gzip are unpacked. Bytes
-        are the content itself; without a folder, material libraries and textures are not found.
+        See `engine3d.loaders.formats` for the formats. Files compressed by gzip are unpacked. A str
+        may be an address, such as ``"https://…"``, which the package fsspec reads. Bytes are the
+        content itself; without a folder, material libraries and textures are not found.
     format : str, optional
         The format's name, such as ``"obj"``; by default detected by content and name.
     progress : callable, optional
@@ -165,7 +166,7 @@ def _remember(
 
     Scene files have no named parts, and content from another root can only be read with that root.
     """
-    if source.has_name and document.scene is None and source.root is None:
+    if source.has_path and document.scene is None and source.root is None:
         origin = FileOrigin(
             os.path.abspath(source.path), format, part, crease_angle=source.crease_angle
         )
@@ -220,7 +221,7 @@ def texture_of(
         pixels = read(source)
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
     texture = Texture(pixels, **options)
-    if source.has_name:
+    if source.has_path:
         remember_image_file(texture, ImageFile(os.path.abspath(source.path)))
     return texture
 

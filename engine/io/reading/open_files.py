@@ -94,6 +94,4 @@ class OpenFile:
 
 def unreadable(path: str, error: Exception) -> FileAccessError:
     """Return the error to raise for a system error."""
-    if path.startswith(("http://", "https://")):
-        return FileAccessError("cannot read: addresses are not fetched; download the file", path)
     return FileAccessError(f"cannot read: {getattr(error, 'strerror', None) or error}", path)

@@ -17,7 +17,7 @@ from ...base.plugins.plugin import Plugin
 from ...base.plugins.registry import find_plugin, origins_of, plugin_names
 from ...errors import FileFormatError, InvalidArgumentError
 from ..formats import modules, named
-from .plugin_reading import read_with_plugin, up_of
+from ..plugins.plugin_reading import read_with_plugin, up_of
 from .sources import Source, endings
 
 if TYPE_CHECKING:

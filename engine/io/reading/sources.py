@@ -18,6 +18,8 @@ import numpy as np
 from ...base.system import AT_ONCE, READ
 from ...errors import FileAccessError, FileFormatError, InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE
+from ..addresses.url_names import file_part, folder_of, is_url
+from ..addresses.urls import fetched
 from .open_files import OpenFile, unreadable
 
 if TYPE_CHECKING:
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
     else:
         from importlib.abc import Traversable
 
-#: The sources of loading: a path, the content, a file, or a package resource.
+#: The sources of loading: a path or an address, the content, a file, or a package resource.
 File: TypeAlias = "str | os.PathLike[str] | bytes | BinaryIO | Traversable"
 
 # Limits of unpacking: a base in bytes, and a multiple of the compressed size. Assignable.
@@ -135,12 +137,19 @@ class Source(NamedTuple):
 
     @property
     def has_name(self) -> bool:
-        """Whether there is a path, rather than bytes or an unnamed stream."""
+        """Whether there is a path or an address, rather than bytes or an unnamed stream."""
         return not self.path.startswith("<")
 
     @property
+    def has_path(self) -> bool:
+        """Whether there is a path on the disk."""
+        return self.has_name and not is_url(self.path)
+
+    @property
     def folder(self) -> str | None:
-        """The folder of files named in this one; None without a path."""
+        """The folder of files named in this one; None without a path or an address."""
+        if is_url(self.path):
+            return folder_of(self.path).removesuffix("/")
         return (os.path.dirname(self.path) or ".") if self.has_name else None
 
     @property
@@ -159,7 +168,7 @@ def endings(path: str) -> list[str]:
 
     Those of ``a.vox.xml.gz`` are ``vox.xml.gz``, ``vox.xml``, ``xml.gz``, ``xml`` and ``gz``.
     """
-    words = os.path.basename(path).lower().split(".")[1:]
+    words = os.path.basename(file_part(path)).lower().split(".")[1:]
     ends = [".".join(words[first:]) for first in range(len(words))]
     unpacked = [end.removesuffix(".gz") for end in ends]
     return list(dict.fromkeys(end for pair in zip(ends, unpacked, strict=True) for end in pair))
@@ -170,7 +179,7 @@ def stem_and_extension(path: str) -> tuple[str, str]:
 
     A trailing ``.gz`` is removed first.
     """
-    stem, extension = os.path.splitext(os.path.basename(path))
+    stem, extension = os.path.splitext(os.path.basename(file_part(path)))
     if extension.lower() == ".gz":
         stem, extension = os.path.splitext(stem)
     return stem, extension.lower()
@@ -182,7 +191,8 @@ def read_source(file: File) -> Source:
     Parameters
     ----------
     file : str, path-like, bytes-like, binary file object or Traversable
-        Bytes are the content itself. A file object is read from its current position.
+        Bytes are the content itself. A file object is read from its current position. A str may be
+        an address, which fsspec reads.
 
     Raises
     ------
@@ -195,6 +205,8 @@ def read_source(file: File) -> Source:
     """
     if isinstance(file, (bytes, bytearray, memoryview)):
         source = Source("<bytes>", bytes(file))
+    elif isinstance(file, str) and is_url(file):
+        source = Source(file, fetched(file))
     elif isinstance(file, (str, os.PathLike)):
         source = _read_path(os.fspath(file))
     elif hasattr(file, "read"):

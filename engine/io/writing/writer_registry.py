@@ -15,9 +15,9 @@ from ...base.plugins.plugin import Plugin
 from ...base.plugins.registry import find_plugin
 from ...errors import InvalidArgumentError
 from ..formats import modules
+from ..plugins.plugin_writing import options_of, write_with_plugin
 from ..reading.reader_registry import Format, plugin_formats
 from ..reading.sources import endings
-from .plugin_writing import options_of, write_with_plugin
 
 #: The extension of engine3d's own scene files, which `save_scene` writes.
 SCENE_EXTENSION = ".json"

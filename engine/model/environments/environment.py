@@ -188,7 +188,7 @@ def environment_of(source: Source) -> Environment:
     from ...io.formats.radiance_pictures import load_radiance
 
     environment = Environment(frozen(load_radiance(source)), name=source.stem)
-    if source.has_name:
+    if source.has_path:
         environment._path = os.path.abspath(source.path)
     return environment
 

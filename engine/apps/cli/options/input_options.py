@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from typing import BinaryIO
 
 from ....errors import FileAccessError, FileFormatError
+from ....io.addresses.url_names import is_url
 from .. import values
 from ..output_templates import fill, names_the_model
 from ..usage import UsageError
@@ -177,11 +178,23 @@ def check_inputs(args: argparse.Namespace) -> None:
     if args.max_size is None:
         return
     for name in args.models:
-        size = os.path.getsize(name) if name != STANDARD_INPUT and os.path.exists(name) else 0
+        size = _size_of(name)
         if size > args.max_size * _MEBIBYTE:
             raise FileFormatError(
                 f"{size / _MEBIBYTE:.1f} MiB are more than --max-size {args.max_size:g}", name
             )
+
+
+def _size_of(name: str) -> int:
+    """Return the size of a file in bytes; 0 for standard input and for what does not exist."""
+    if not is_url(name):
+        return os.path.getsize(name) if name != STANDARD_INPUT and os.path.exists(name) else 0
+    from ....io.addresses.urls import size_of_url
+
+    size = size_of_url(name)
+    if size is None:
+        raise FileFormatError("its server tells no size, as --max-size demands", name)
+    return size
 
 
 def model_file(name: str) -> str | BinaryIO:

@@ -9,8 +9,9 @@ from __future__ import annotations
 import binascii
 from typing import Any
 
+from ...addresses.linked_urls import linked_files
 from ...reading import sources
-from ...reading.linked_files import LinkedFileError, LinkedFiles
+from ...reading.linked_files import LinkedFileError
 from ...reading.percent_encoding import percent_decoded
 from ...reading.posed_parts import MAX_REPEATED
 from ...reading.sources import Source
@@ -40,7 +41,7 @@ class GltfBuffers:
 
     def __init__(self, file: GltfFile, source: Source) -> None:
         self._file = file
-        self._files = LinkedFiles.of(source, file.warnings)
+        self._files = linked_files(source, file.warnings)
         self._buffers: dict[int, memoryview | DamagedError] = {}
         self._unpacked: dict[int, memoryview | DamagedError] = {}
         self._given = 0

@@ -10,6 +10,7 @@ import os
 
 from ....errors import Engine3DError
 from ....model.materials.material import Material
+from ...addresses.linked_urls import linked_files
 from ...reading.linked_files import LinkedFileError, LinkedFiles
 from ...reading.linked_textures import TextureCache
 from ...reading.sources import Source
@@ -42,7 +43,7 @@ def read_library(
         The first material of each name.
     """
     library: dict[str, Material] = {}
-    files = LinkedFiles.of(source)
+    files = linked_files(source)
     textures = TextureCache(files)
     paths: dict[str, int | None] = {}
     for names, line in zip(statements.names(), statements.lines, strict=True):

@@ -13,7 +13,8 @@ from ...._native.loaders import frozen
 from ....errors import Engine3DError
 from ....model.materials.material import Material
 from ....model.materials.textures import Texture
-from ...reading.linked_files import LinkedFileError, LinkedFiles
+from ...addresses.linked_urls import linked_files
+from ...reading.linked_files import LinkedFileError
 from ...reading.linked_textures import TextureCache, give_companion_texture
 from ...reading.sources import Source
 from ...reading.text import shown
@@ -33,7 +34,7 @@ def read_materials(
         return materials
     if len(names) > _MAX_TEXTURES:
         warnings.add(f"{len(names)} textures, {_MAX_TEXTURES} are the limit")
-    textures = TextureCache(LinkedFiles.of(source))
+    textures = TextureCache(linked_files(source))
     return [
         Material(name=name, texture=_texture(name, textures, source, warnings))
         for name in names[:_MAX_TEXTURES]

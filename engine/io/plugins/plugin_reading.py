@@ -23,12 +23,12 @@ from ...model.geometry.creases import SMOOTH
 from ...model.geometry.mesh import Mesh
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.scene import Scene
-from .documents import Document, DocumentObject
-from .open_files import unreadable
+from ..reading.documents import Document, DocumentObject
+from ..reading.open_files import unreadable
+from ..reading.posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
+from ..reading.sources import Source
+from ..reading.warning_list import WarningList
 from .plugin_files import PluginFile
-from .posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
-from .sources import Source
-from .warning_list import WarningList
 
 _UP = re.compile(r"[+-][XYZ]")
 

@@ -11,9 +11,10 @@ import io
 from ...base.calls import checks_types
 from ...base.validation import fraction as checked_fraction
 from ...errors import FileAccessError
-from .linked_files import LinkedFileError, LinkedFiles
-from .sources import Source
-from .warning_list import WarningList
+from ..addresses.linked_urls import linked_files
+from ..reading.linked_files import LinkedFileError, LinkedFiles
+from ..reading.sources import Source
+from ..reading.warning_list import WarningList
 
 
 class PluginFile(io.BytesIO):
@@ -36,7 +37,7 @@ class PluginFile(io.BytesIO):
         self.path = source.path if source.is_on_disk else None
         self._progress = source.progress
         self._warnings = WarningList(source.path) if warnings is None else warnings
-        self._files = LinkedFiles.of(source, self._warnings) if files is None else files
+        self._files = linked_files(source, self._warnings) if files is None else files
 
     @checks_types
     def open(self, name: str) -> PluginFile:

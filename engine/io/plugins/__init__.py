@@ -1,0 +1,1 @@
+"""Files that readers and writers of other packages take."""

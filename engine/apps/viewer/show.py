@@ -65,7 +65,7 @@ def show(
     Parameters
     ----------
     thing : path, Scene, Node, Mesh, InstancedMesh, Frame, Canvas, array, or another library's
-        An (N, 3) array holds points. Other libraries are trimesh, PyVista and meshio.
+        Other libraries are trimesh, PyVista and meshio.
         A file of a model is opened as by ``engine3d run``. A node is shown with its subtree and the
         lights in it. The first view of a scene is its camera's, if it has one. Arrays are as for
         `Window.present`.

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-__all__ = ["pyrender"]
+__all__ = ["pyrender", "pyvista"]
 
 
 def __getattr__(name):

@@ -21,7 +21,7 @@ from .cell_meshes import Cells, mesh_of_cells
 
 def scene_from_pyvista(dataset: Any) -> Scene | None:
     """Return a scene converted from a dataset of PyVista; None for its other objects."""
-    if not (hasattr(dataset, "points") or hasattr(dataset, "keys")):
+    if not (hasattr(dataset, "points") or hasattr(dataset, "GetNumberOfBlocks")):
         return None
     scene = Scene()
     for name, part in _parts(dataset, "mesh"):

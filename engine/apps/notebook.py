@@ -66,7 +66,8 @@ class View(RemoteFrameBuffer):
 
     Parameters
     ----------
-    thing : path, Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+    thing : path, Scene, Node, Mesh, InstancedMesh, array, or another library's object
+        An (N, 3) array holds points. Other libraries are trimesh, PyVista and meshio.
         As for `engine3d.render`.
     size : (int, int)
         Width and height in the page's pixels, at first: the corner can be dragged.

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-__all__ = ["matplotlib", "pyrender"]
+__all__ = ["matplotlib", "pyrender", "pyvista"]
 
 
 def __getattr__(name):

@@ -1,7 +1,7 @@
 """Renders one picture of anything drawable, in one call.
 
-In: a path, a scene, a part of one, a mesh, points, or a trimesh object. Out: a `Frame`, from its
-own `Renderer`.
+In: a path, a scene, a part of one, a mesh, points, or another library's object. Out: a `Frame`,
+from its own `Renderer`.
 """
 
 from __future__ import annotations
@@ -44,7 +44,8 @@ def render(
 
     Parameters
     ----------
-    scene : path-like, Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+    scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
+        An (N, 3) array holds points. Other libraries are trimesh, PyVista and meshio.
         A file gives the picture of ``engine3d render``, with the same bytes. A node is drawn with
         its subtree at its world pose, lit by the lights of that subtree.
     camera : None, Node or (Camera, pose)

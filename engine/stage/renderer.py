@@ -65,7 +65,7 @@ class Renderer(rendering.Renderer):
 
     Several renderers may draw in several threads at once; one renderer shared by threads draws one
     frame after the other. A renderer stages a thing once, and again after it has changed: files,
-    meshes, instances and scenes; nodes, arrays and objects of trimesh each time.
+    meshes, instances and scenes; nodes, arrays and objects of other libraries each time.
 
     Parameters
     ----------
@@ -172,7 +172,8 @@ class Renderer(rendering.Renderer):
 
         Parameters
         ----------
-        scene : path-like, Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+        scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
+            An (N, 3) array holds points. Other libraries are trimesh, PyVista and meshio.
         options, **keywords
             As for `render`.
 
@@ -204,7 +205,8 @@ class Renderer(rendering.Renderer):
 
         Parameters
         ----------
-        scene : path-like, Scene, Node, Mesh, InstancedMesh, (N, 3) ndarray, or what trimesh holds
+        scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
+            An (N, 3) array holds points. Other libraries are trimesh, PyVista and meshio.
             A file is opened and seen as by ``engine3d render``; an array holds points. Of a node
             its subtree is drawn, at its world pose.
         camera : None, Node or (Camera, pose)

@@ -1,4 +1,4 @@
-"""Makes scenes of meshes, nodes, points and trimesh objects, for `render` and `show`.
+"""Makes scenes of meshes, nodes, points and objects of other libraries, for `render` and `show`.
 
 In: one of these. Out: a `Scene` whose nodes share the given meshes.
 """
@@ -11,7 +11,7 @@ import numpy as np
 
 from ..base.foreign_arrays import is_foreign_array
 from ..base.numbers import as_array
-from ..io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
+from ..io.scenes.other_libraries import scene_of_library
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
@@ -27,14 +27,14 @@ def scene_of(thing: Any) -> Scene | None:
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) array, or what trimesh holds
+    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) array, or what trimesh, PyVista or meshio hold
         A scene is returned unchanged. An array holds points. For a node, the new scene holds its
         visible subtree at its world poses, in its current deformation.
     """
     if isinstance(thing, Scene):
         return thing
-    if is_of_trimesh(thing):
-        return scene_from_trimesh(thing)
+    if (made := scene_of_library(thing)) is not None:
+        return made
     scene = Scene()
     if is_foreign_array(thing):
         thing = as_array(thing, "the points")

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
+from ..io.scenes.other_libraries import library_of
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from .appearance import BARE
@@ -111,7 +112,9 @@ def settings_for(
 
 def is_file(thing: Any) -> bool:
     """Return whether a thing is a path or a file object."""
-    return isinstance(thing, (str, os.PathLike)) or hasattr(thing, "read")
+    if isinstance(thing, (str, os.PathLike)):
+        return True
+    return hasattr(thing, "read") and library_of(thing) is None  # meshes of meshio have it, too
 
 
 def check_motion(function: object, what: str) -> None:

@@ -213,6 +213,28 @@ def test_a_command_says_what_is_wrong(package, tmp_path, capsys, group, code, ar
     assert f"of engine3d.{group}) {said}" in capsys.readouterr().err
 
 
+def test_a_programs_own_writer_has_nothing_to_do_with_a_broken_one(package):
+    from engine3d.apps.datasets.kinds import plugin_of
+    from engine3d.datasets import FolderWriter
+
+    class Own(FolderWriter):
+        kind = "demo"
+
+    package(datasets={"demo": "nowhere_to_be_found:value"})
+    package(datasets={"demo": "nowhere_to_be_found:value"})
+    assert plugin_of(Own()) is None
+
+
+@pytest.mark.parametrize("where", ["-D", "--config"])
+def test_files_of_options_cannot_leave_plugins_out(tmp_path, capsys, where):
+    """It would be too late: the option decides what is known when they are read."""
+    path = tmp_path / "config.json"
+    path.write_text('[{"options": {"no-plugins": true}}]')
+    given = "no-plugins=true" if where == "-D" else str(path)
+    assert main(["render", "a.obj", where, given]) != 0
+    assert "there is no" in capsys.readouterr().err
+
+
 def test_damaged_metadata_of_a_package_is_told_and_passed_over(package, vox):
     package(READER, readers={"vox": "{0}:read"})
     folder = package(READER, readers={"vex": "{0}:read"})

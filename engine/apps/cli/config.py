@@ -16,11 +16,14 @@ from ...base.near_words import meant
 from ...errors import FileFormatError
 from ..desktop.user_folders import user_path
 from .options.scene_options import OF_MODELS
+from .plugin_switch import NO_PLUGINS
 from .short_help import WHOLE
 from .usage import UsageError
 
 # Options about config files, or that end the program, are allowed only on the command line.
-_NOT_HERE = frozenset({"config", "no-config", "define", "help", WHOLE.removeprefix("--")})
+_NOT_HERE = frozenset(
+    {"config", "no-config", "define", "help", *(one[2:] for one in (WHOLE, NO_PLUGINS))}
+)
 _LARGEST = 1 << 20  # bytes
 _ENTRY = frozenset({"files", "options"})
 # Options that contradict each other: the later one of a pair wins.

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+
 from ...base.numbers import shown
 from ...base.plugins.open_choices import OpenChoices
 from ...base.plugins.plugin import Plugin, fault
-from ...base.plugins.registry import find_plugin
+from ...base.plugins.registry import find_plugin, listed
+from ...errors import PluginError
 from .bop import BopWriter
 from .coco import CocoWriter
 from .folders import FolderWriter
@@ -47,5 +50,9 @@ def plugin_of(writer: DatasetWriter) -> Plugin | None:
     """Return the plug-in whose writer this is, or None."""
     if type(writer).__module__.partition(".")[0] == __name__.partition(".")[0]:
         return None  # of engine3d: no metadata is read
-    plugin = find_plugin("datasets", writer.kind)
-    return plugin if plugin is not None and plugin.load() is type(writer) else None
+    for plugin in listed():
+        if (plugin.group, plugin.name) == ("datasets", writer.kind):
+            with contextlib.suppress(PluginError):  # a broken one is nobody's writer
+                if plugin.load() is type(writer):
+                    return plugin
+    return None

@@ -15,20 +15,15 @@ from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.scene import Scene
 
 
-def is_of_trimesh(thing: object) -> bool:
-    """Return whether an object is a trimesh scene or geometry."""
-    return type(thing).__module__.partition(".")[0] == "trimesh" and (
-        hasattr(thing, "graph") or hasattr(thing, "vertices")
-    )
-
-
-def scene_from_trimesh(thing: Any) -> Scene:
-    """Return a scene converted from a trimesh object.
+def scene_from_trimesh(thing: Any) -> Scene | None:
+    """Return a scene converted from a trimesh object; None for those that hold no geometry.
 
     Parameters
     ----------
     thing : trimesh.Scene, Trimesh, PointCloud or Path
     """
+    if not (hasattr(thing, "graph") or hasattr(thing, "vertices")):
+        return None
     from ..trimesh_conversion import mesh_from_trimesh, scene_parts
 
     scene = Scene()

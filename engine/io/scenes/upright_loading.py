@@ -54,13 +54,27 @@ def load(path: File, *, variant: str | int | None = None, **options: Any) -> Sce
     """
     document = load_document(path, **options)
     scene = scene_from_document(document, variant)
-    pose = _upright_pose(document.up, document.unit)
-    if pose is not None:
-        tops = [node for node in scene.nodes if node.parent is None]
-        group = scene.add(name="upright", pose=pose)
-        for node in tops:
-            node.reparent(group, keep_world_pose=False)
+    stand_upright(scene, document.up, document.unit)
     return scene
+
+
+def stand_upright(scene: Scene, up: str, unit: str = "") -> None:
+    """Put all nodes of a scene below one that turns its up direction to +Y, unless it is +Y.
+
+    Parameters
+    ----------
+    scene : Scene
+    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
+    unit : str
+        The symbol of the unit that becomes a metre, such as ``"mm"``; empty: lengths stay.
+    """
+    pose = _upright_pose(up, unit)
+    if pose is None:
+        return
+    tops = [node for node in scene.nodes if node.parent is None]
+    group = scene.add(name="upright", pose=pose)
+    for node in tops:
+        node.reparent(group, keep_world_pose=False)
 
 
 def _upright_pose(up: str, unit: str) -> NDArray[np.float64] | None:

@@ -1,0 +1,118 @@
+"""Datasets of PyVista and meshes of meshio are drawn as they are."""
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d.errors import InvalidArgumentError
+from engine3d.io.scenes.other_libraries import library_of, scene_of_library
+
+POINTS = np.array(
+    [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], np.float64
+)
+BESIDE = POINTS[[1, 2, 5, 6]] + (1, 0, 0)
+
+
+def only_mesh(thing):
+    (node,) = scene_of_library(thing).nodes
+    return node.object
+
+
+def area(mesh):
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces].astype(np.float64), 1, 0)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+
+
+def volume(mesh):
+    """The volume within a closed mesh whose faces all look outwards."""
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces].astype(np.float64), 1, 0)
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+
+
+class TestMeshio:
+    @pytest.fixture(autouse=True)
+    def meshio(self):
+        self.meshio = pytest.importorskip("meshio", exc_type=ImportError)
+
+    def test_outer_faces_of_volumes_look_outwards(self):
+        both = [[0, 1, 2, 3, 4, 5, 6, 7], [1, 8, 9, 2, 5, 10, 11, 6]]
+        mesh = only_mesh(self.meshio.Mesh(np.vstack([POINTS, BESIDE]), {"hexahedron": both}))
+        assert len(mesh.faces) == 20 and volume(mesh) == pytest.approx(2)
+        tetra = only_mesh(self.meshio.Mesh(POINTS[[0, 1, 3, 4]], {"tetra": [[0, 1, 2, 3]]}))
+        assert volume(tetra) == pytest.approx(1 / 6)
+        wedge = only_mesh(self.meshio.Mesh(POINTS[[0, 3, 1, 4, 7, 5]], {"wedge": [range(6)]}))
+        assert volume(wedge) == pytest.approx(0.5) and len(wedge.faces) == 8
+        pyramid = only_mesh(self.meshio.Mesh(POINTS[[0, 1, 2, 3, 4]], {"pyramid": [range(5)]}))
+        assert volume(pyramid) == pytest.approx(1 / 3)
+
+    def test_polygons_lines_and_points_in_two_dimensions(self):
+        cells = [
+            ("triangle", [[0, 1, 2]]),
+            ("quad", [[0, 1, 2, 3]]),
+            ("line", [[0, 2]]),
+            ("vertex", [[3]]),
+        ]
+        mesh = only_mesh(self.meshio.Mesh(POINTS[:4, :2], cells))
+        assert area(mesh) == pytest.approx(1.5)
+        assert mesh.lines.tolist() == [[0, 2]] and mesh.points.tolist() == [3]
+
+    def test_data_of_points_colours_the_picture(self):
+        given = self.meshio.Mesh(POINTS, {"quad": [[0, 1, 2, 3]]}, point_data={"t": np.arange(8.0)})
+        assert only_mesh(given).values["t"].tolist() == list(range(8))
+        plain, hot = (
+            e3d.render(given, size=(32, 24), **how).color for how in ({}, {"color_by": "t"})
+        )
+        assert not np.array_equal(plain, hot)
+
+
+class TestPyvista:
+    @pytest.fixture(autouse=True)
+    def pyvista(self):
+        self.pyvista = pytest.importorskip("pyvista", exc_type=ImportError)
+
+    def test_polygons_keep_their_numbers(self):
+        cube = self.pyvista.Cube()
+        cube.cell_data["side"] = np.arange(6)
+        cube.point_data["height"] = cube.points[:, 2]
+        mesh = only_mesh(cube)
+        assert volume(mesh) == pytest.approx(1) and mesh.crease_angle < 1
+        assert sorted(mesh.values["side"].tolist()) == [n // 2 for n in range(12)]
+        assert np.array_equal(mesh.values["height"], mesh.positions[:, 2])
+        assert not mesh.edge_visible.all()
+
+    def test_the_surface_of_volumes(self):
+        grid = self.pyvista.ImageData(dimensions=(3, 4, 5))
+        grid.cell_data["count"] = np.arange(24)
+        mesh = only_mesh(grid)
+        assert area(mesh) == pytest.approx(2 * (6 + 8 + 12)) and "count" in mesh.values
+
+    def test_lines_points_strips_and_what_is_empty(self):
+        line = only_mesh(self.pyvista.Line(resolution=3))
+        assert line.lines.tolist() == [[0, 1], [1, 2], [2, 3]]
+        two = self.pyvista.Line() + self.pyvista.Line((0, 1, 0), (1, 1, 0), resolution=2)
+        assert len(only_mesh(two).lines) == 3
+        assert only_mesh(self.pyvista.PolyData(POINTS)).points.tolist() == list(range(8))
+        strips = self.pyvista.Sphere().strip()
+        assert area(only_mesh(strips)) == pytest.approx(self.pyvista.Sphere().area)
+        assert len(only_mesh(self.pyvista.PolyData()).positions) == 0
+
+    def test_blocks_are_nodes(self):
+        inner = self.pyvista.MultiBlock({"b": self.pyvista.Cube(), "none": None})
+        blocks = self.pyvista.MultiBlock({"a": self.pyvista.Sphere(), "inner": inner})
+        assert [node.name for node in scene_of_library(blocks).nodes] == ["a", "b"]
+
+    def test_classes_of_programs_count(self):
+        class Part(self.pyvista.PolyData):
+            pass
+
+        part = Part(self.pyvista.Sphere())
+        assert library_of(part) == "pyvista"
+        assert e3d.render(part, size=(16, 12)).stats["triangles"] > 100
+
+    def test_what_shows_nothing_is_refused(self):
+        with pytest.raises(InvalidArgumentError):
+            e3d.render(self.pyvista.Camera(), size=(16, 12))
+
+
+def test_what_is_of_no_library():
+    assert library_of(e3d.box()) is None and scene_of_library(3) is None

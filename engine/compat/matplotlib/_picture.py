@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib import artist as martist
 
 from ._known import LINE, POLYGONS, SCATTER, TEXT, Kind, is_clipped
-from ._lines import project_line
+from ._lines import draw_waiting, project_line
 from ._pile import Pile
 from ._polygons import draw_faces, vertex_count
 from ._sheets import Painter, draw_texts
@@ -106,6 +106,7 @@ class Picture(martist.Artist):
             if kind is not TEXT:
                 pile.begin(number, is_on_faces=True)
                 kind.draw(pile, view, artist, painter)
+        draw_waiting(pile, view)
         texts = [(number, artist) for number, (artist, kind) in enumerate(drawn) if kind is TEXT]
         return draw_texts(pile, view, texts, painter)
 

@@ -35,15 +35,20 @@ class Surfaces:
     def limited(self, rise: np.ndarray, span: float) -> np.ndarray:
         return np.minimum(rise, _MOST * span)
 
-    def under(self, places: np.ndarray, span: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return the rise of the surface at places, depth a pixel, and which lie on it."""
+    def under(
+        self, places: np.ndarray, span: float, looks_round: bool
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the rise of the surface at places, depth a pixel, and which lie on it.
+
+        ``looks_round``: at neighbouring pixels as well, for what lies at the rim of its face.
+        """
         rise, gap = np.zeros(len(places)), np.full(len(places), np.inf)
         width, height = self._size
         column, row = (
             np.nan_to_num(np.floor(places[:, k]), nan=-9.0, posinf=-9.0, neginf=-9.0)
             for k in (0, 1)
         )
-        for right, down in _AROUND:
+        for right, down in _AROUND if looks_round else _AROUND[:1]:
             x, y = column + right, row + down
             inside = np.flatnonzero((x >= 0) & (x < width) & (y >= 0) & (y < height))
             face = self._face_id[y[inside].astype(int), x[inside].astype(int)]

@@ -86,9 +86,13 @@ def draw_texts(
         for place, text in zip(places, texts, strict=True)
         if np.isfinite(place).all()
     ]
-    depths = pile.depths() if shown else np.empty((0, 0))
+    has_others = bool(shown) and not pile.is_empty
+    depths = pile.depths() if has_others else np.empty((0, 0))
     free: list[Text3D] = []
     for _, number, text in sorted(shown, key=lambda one: (one[0], -one[1])):
+        if not has_others:
+            free.append(text)
+            continue
         text.draw(painter.renderer)
         painted = painter.taken()
         if painted is None:

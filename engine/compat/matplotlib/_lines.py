@@ -19,6 +19,7 @@ from ._colors import codes_of, cycled
 from ._limits import shown_points
 from ._markers import draw_markers, edge_of, shapes_of
 from ._pile import Pile
+from ._resting import MOST_LIFT
 from ._strokes import cut, dashed, finer, stroke
 from ._view import View
 
@@ -124,8 +125,10 @@ def draw_line(pile: Pile, view: View, line) -> None:
     """Add a Line3D; its markers lie on it."""
     points = shown_points(points_of(line), line)
     places = view.screen(points)
-    _draw_markers_of(pile, view, line, places)
-    if line.get_linestyle() in ("None", "none", " ", "") or not line.get_linewidth() > 0:
+    has_line = line.get_linestyle() not in ("None", "none", " ", "") and line.get_linewidth() > 0
+    radius = 0.5 * line.get_markersize() * view.points_to_pixels
+    _draw_markers_of(pile, view, line, _before_line(view, places, radius) if has_line else places)
+    if not has_line:
         return
     width = line.get_linewidth() * view.points_to_pixels
     start, dashes = line._dash_pattern
@@ -140,6 +143,18 @@ def draw_line(pile: Pile, view: View, line) -> None:
             _add_to_waiting(pile, behind, width, color, Pen(join=pen.join))
     color = codes_of(line.get_color(), line.get_alpha())
     _add_to_waiting(pile, places, width, color, pen)
+
+
+def _before_line(view: View, places: np.ndarray, radius: float) -> np.ndarray:
+    """Return the places of markers before their own line, as far as it comes nearer within them."""
+    step = np.abs(np.diff(places, axis=0))
+    with np.errstate(all="ignore"):
+        steep = step[:, 2] / np.sqrt(step[:, 0] ** 2 + step[:, 1] ** 2)
+    nearer = np.nan_to_num(np.minimum(steep * radius, step[:, 2]), nan=0.0)
+    lift = np.maximum(np.append(nearer, 0.0), np.append(0.0, nearer))
+    out = places.copy()
+    out[:, 2] -= np.minimum(lift, MOST_LIFT * view.span)
+    return out
 
 
 def _draw_markers_of(pile: Pile, view: View, line, places: np.ndarray) -> None:

@@ -14,7 +14,7 @@ from ...rendering.backend_selection import resolve_backend, resolve_threads
 from ._view import Region
 
 _SLACK = 0.002  # of the scene's depth: what counts as the same depth everywhere
-_MOST = 0.035  # of the scene's depth: how far things are brought forward at most
+MOST_LIFT = 0.035  # of the scene's depth: how far things are brought forward at most
 _AROUND = ((0, 0), (-1, 0), (1, 0), (0, -1), (0, 1))
 
 
@@ -33,7 +33,7 @@ class Surfaces:
         self._clip, self._faces = clip, faces
 
     def limited(self, rise: np.ndarray, span: float) -> np.ndarray:
-        return np.minimum(rise, _MOST * span)
+        return np.minimum(rise, MOST_LIFT * span)
 
     def under(
         self, places: np.ndarray, span: float, looks_round: bool
@@ -59,7 +59,7 @@ class Surfaces:
             apart = np.abs(places[inside, 2] - depth)
             better = apart < gap[inside]
             rise[inside[better]], gap[inside[better]] = steep[better], apart[better]
-        return rise, gap <= np.minimum(rise, _MOST * span) + _SLACK * span
+        return rise, gap <= np.minimum(rise, MOST_LIFT * span) + _SLACK * span
 
     def _planes(self, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how steep the planes of faces are, and their depths at places."""

@@ -93,6 +93,15 @@ def test_a_text_behind_clear_or_partly_behind_is_in_the_picture(ax):
     assert blurred.sum() > 20
 
 
+def test_a_text_that_something_hides_in_part_goes_on_outside_the_axes(ax):
+    ax.set_axis_off()
+    wall(ax)
+    ax.text(0.2, 0.2, 0, "a text that is so long that it leaves the axes", color="r")
+    seen = pixels_of(ax)
+    inside, outside = seen[:, 100:300], seen[:, 330:]
+    assert count(outside, (255, 0, 0)) > 20 and count(inside, (255, 0, 0)) < 20
+
+
 def test_sizes_tight_boxes_and_transparency(ax):
     wall(ax)
     for dpi in (50, 150):

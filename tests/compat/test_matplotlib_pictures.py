@@ -244,3 +244,14 @@ def test_every_backend_and_number_of_threads_gives_the_same_bytes(monkeypatch):
         monkeypatch.setenv("ENGINE3D_THREADS", threads)
         assert png(figure) == expected, (backend, threads)
     assert png(crowded().get_figure()) == expected
+
+
+def test_markers_lie_on_their_own_line():
+    ax = axes_of(elev=20, azim=-70)
+    style = {"color": "r", "linewidth": 4, "markersize": 18, "markerfacecolor": "w"}
+    ax.plot([-1, 0, 1], [-1, 0, 1], [-0.3, 0, 0.3], "o-", **style)
+    ax.scatter([0, 0], [-1, 1], [0, 0], s=1)
+    seen = pixels_of(ax)
+    x, y = ax.transData.transform(ax.lines[0].get_xydata()[1])
+    around = seen[int(300 - y) - 6 : int(300 - y) + 7, int(x) - 6 : int(x) + 7]
+    assert (around == 255).all()

@@ -92,6 +92,15 @@ static e3d_status draw_clip_triangles(const void *data, e3d_backend backend, int
                                       const e3d_targets *targets)
 {
     const clip_triangles *t = data;
+    const e3d_clip_triangles colored = {.clip = t->clip,
+                                        .colors = t->colors,
+                                        .vertices = t->vertices,
+                                        .faces = t->faces,
+                                        .faces_count = t->faces_count,
+                                        .looks = t->looks};
+    e3d_status status = e3d_draw_clip(&colored, t->width, t->height, t->samples, backend, threads, targets->color);
+    if (status != E3D_OK)
+        return status;
     return e3d_rasterize(t->clip, t->vertices, t->faces, t->faces_count, t->width, t->height,
                          t->cull, backend, threads, targets->face_id, targets->ndc_depth,
                          targets->barycentric);
@@ -172,7 +181,7 @@ outcome compare_shadows(random_stream r, const run_plan *plan, const char *title
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title)
 {
     clip_triangles t = clip_triangles_create(&r, plan->most_side);
-    uint32_t mask = 1u << E3D_OUTPUT_NDC_DEPTH | 1u << E3D_OUTPUT_FACE_ID | 1u << E3D_OUTPUT_BARYCENTRIC;
+    uint32_t mask = 1u << E3D_OUTPUT_COLOR | 1u << E3D_OUTPUT_NDC_DEPTH | 1u << E3D_OUTPUT_FACE_ID | 1u << E3D_OUTPUT_BARYCENTRIC;
     drawing all = {draw_clip_triangles, &t, (size_t)t.width * (size_t)t.height, mask};
     outcome result = compare(&all, plan, title);
     clip_triangles_destroy(&t);

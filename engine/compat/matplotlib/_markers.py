@@ -6,9 +6,11 @@ marker's place.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.path import Path
 
 from ...io.reading.triangulation import triangulate
 from ._outlines import outlines_of
@@ -37,9 +39,16 @@ def shapes_of(path, transform, pixels: float, cap: str, join: str) -> Shapes:
     """Return the triangles of a marker whose largest size is so many pixels."""
     vertices = transform.transform(path.vertices)
     reach = np.abs(vertices).max(initial=0.0) * pixels
-    outlines = outlines_of(
-        vertices * (1.0, -1.0), path.codes, int(np.clip(np.ceil(np.sqrt(reach / 2)), 1, 8))
-    )
+    steps = int(np.clip(np.ceil(np.sqrt(reach / 2)), 1, 8))
+    codes = None if path.codes is None else path.codes.tobytes()
+    return _shapes(vertices.tobytes(), codes, steps, cap, join)
+
+
+@lru_cache(maxsize=64)
+def _shapes(places: bytes, path_codes: bytes | None, steps: int, cap: str, join: str) -> Shapes:
+    vertices = np.frombuffer(places, float).reshape(-1, 2)
+    codes = None if path_codes is None else np.frombuffer(path_codes, Path.code_type)
+    outlines = outlines_of(vertices * (1.0, -1.0), codes, steps)
     fills, wholes, edges = [], [], []
     for points, is_closed in outlines:
         line = np.append(points, points[:1], 0) if is_closed else points
@@ -112,9 +121,8 @@ def draw_markers(
     radii = sizes * 0.5 + widths * 0.5
     places = pile.lifted(places, radii)
     has_edge = (edges[:, 3] > 0) & (widths > 0)
-    is_whole = (
-        has_edge & (faces[:, 3] == 255) & (faces == edges).all(1) & (len(shapes.fill.corner) > 0)
-    )
+    # An edge of the same colour makes a marker larger; a clear one is blended once.
+    is_whole = has_edge & (faces == edges).all(1) & (len(shapes.fill.corner) > 0)
     has_face = (faces[:, 3] > 0) & ~is_whole
     # The first of equal depth is in front.
     for shape, shown, colors in (

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib import artist as martist
 
 from ._known import LINE, POLYGONS, SCATTER, TEXT, Kind, is_clipped
-from ._lines import project_line
+from ._lines import draw_waiting, project_line
 from ._pile import Pile
 from ._polygons import draw_faces, vertex_count
 from ._sheets import Painter, draw_texts
@@ -47,10 +47,14 @@ class Picture(martist.Artist):
         for artist, kind in self._drawn:
             _project(artist, kind)
         inside = _box_of(axes)
-        free = [one for one in self._drawn if not is_clipped(one.artist)]
-        if free:
-            self._show(renderer, self._canvas(), free, spared=inside)
         self.texts = self._show(renderer, inside, self._drawn)
+        beyond = [
+            one
+            for one in self._drawn
+            if not is_clipped(one.artist) and one.artist not in self.texts
+        ]
+        if beyond:
+            self._show(renderer, self._canvas(), beyond, spared=inside)
         for artist, _ in self._drawn:
             artist.stale = False
 
@@ -69,7 +73,7 @@ class Picture(martist.Artist):
             return []
         vertices = sum(vertex_count(artist) for artist, kind in drawn if kind is POLYGONS)
         pile = Pile(view, len(drawn), vertices)
-        texts = self._collect(pile, view, drawn)
+        texts = self._collect(pile, view, drawn, spared is not None)
         if spared is not None and _within(pile.bounds(), region, spared):
             return texts
         pixels = pile.draw()
@@ -93,8 +97,8 @@ class Picture(martist.Artist):
         low, high = np.min([box[0] for box in bounds], 0), np.max([box[1] for box in bounds], 0)
         return View(self.axes, region, low, high)
 
-    def _collect(self, pile: Pile, view: View, drawn: list[Drawn]) -> list:
-        """Add artists to a pile; return the texts that nothing hides."""
+    def _collect(self, pile: Pile, view: View, drawn: list[Drawn], with_texts: bool) -> list:
+        """Add artists to a pile; return the texts that nothing hides, which may be added, too."""
         painter = Painter(self.get_figure(root=True), view)
         for number, (artist, kind) in enumerate(drawn):
             if kind is POLYGONS:
@@ -106,8 +110,9 @@ class Picture(martist.Artist):
             if kind is not TEXT:
                 pile.begin(number, is_on_faces=True)
                 kind.draw(pile, view, artist, painter)
+        draw_waiting(pile, view)
         texts = [(number, artist) for number, (artist, kind) in enumerate(drawn) if kind is TEXT]
-        return draw_texts(pile, view, texts, painter)
+        return draw_texts(pile, view, texts, painter, with_texts)
 
 
 class Words(martist.Artist):

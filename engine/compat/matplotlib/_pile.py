@@ -7,6 +7,7 @@ Surfaces come first, so that what lies on them can be lifted before it is added.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from ._view import View
 SAMPLES = 16  # a pixel
 # Of so many triangles, whose edges are mostly inside of surfaces.
 _MANY, _FEWER_SAMPLES = 1 << 20, 8
+# Of so many clear ones, which are slow.
+_MANY_CLEAR, _FEWEST_SAMPLES = 1 << 16, 4
 # Of the scene's depth: how much nearer an artist is at most than the one before, or the first.
 _RANK, _RANKS = 0.0001, 0.002
 _LIFT = 0.002  # of the scene's depth: how much nearer lines and markers are than surfaces
@@ -47,17 +50,22 @@ class Pile:
         self._textures: list[np.ndarray] = []
         self._textured: list[tuple[int, np.ndarray]] = []
         self._artists = max(artists, 1)
+        self.artist, self.rank = 0, 0.0
         self._artist, self._rank = 0, 0.0
+        #: Lines by their pens, which are drawn together at last: see _lines.py.
+        self.waiting: dict[Any, list[tuple[int, tuple[np.ndarray, ...]]]] = {}
         self._surfaces: Surfaces | None = None
 
-    def begin(self, artist: int, is_on_faces: bool = False) -> None:
+    def begin(self, artist: int, is_on_faces: bool = False, is_ranked: bool = False) -> None:
         """Let what is added belong to the artist of a number, from 0 on.
 
         Of equal depth, greater numbers show. They are a little nearer, too: where two lie in one
-        plane, rounding must not decide.
+        plane, rounding must not decide. ``is_ranked``: what is added was brought nearer already.
         """
+        self.artist = artist
         self._artist = 2 * artist + is_on_faces
-        self._rank = artist * min(_RANK, _RANKS / self._artists) * self._view.span
+        self.rank = artist * min(_RANK, _RANKS / self._artists) * self._view.span
+        self._rank = 0.0 if is_ranked else self.rank
 
     def end_surfaces(self) -> None:
         """Remember what was added as the surfaces that others may lie on."""
@@ -89,7 +97,7 @@ class Pile:
 
     def lifted(self, places: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """Return places of markers, nearer: on surfaces by as much as these rise round them."""
-        return self._lifted(places, radii, lambda lies: lies)
+        return self._lifted(places, radii, lambda lies: lies, True)
 
     def lifted_lines(
         self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray
@@ -106,7 +114,7 @@ class Pile:
                 & (before | after)
             )
 
-        return self._lifted(places, half_widths, along)
+        return self._lifted(places, half_widths, along, False)
 
     def lifted_edges(
         self, places: np.ndarray, runs: np.ndarray, half_widths: np.ndarray
@@ -118,19 +126,27 @@ class Pile:
         def near(lies: np.ndarray) -> np.ndarray:
             return lies | (np.roll(lies, 1) & before) | (np.roll(lies, -1) & after)
 
-        return self._lifted(places, half_widths, near)
+        return self._lifted(places, half_widths, near, True)
 
     def _lifted(
-        self, places: np.ndarray, radii: np.ndarray, decide: Callable[[np.ndarray], np.ndarray]
+        self,
+        places: np.ndarray,
+        radii: np.ndarray,
+        decide: Callable[[np.ndarray], np.ndarray],
+        looks_round: bool,
     ) -> np.ndarray:
         out = places.copy()
         out[:, 2] -= _LIFT * self._view.span
         if self._surfaces is not None and len(places):
-            rise, lies = self._surfaces.under(places, self._view.span)
+            rise, lies = self._surfaces.under(places, self._view.span, looks_round)
             out[:, 2] -= np.where(
                 decide(lies), self._surfaces.limited(rise * (1.0 + radii), self._view.span), 0.0
             )
         return out
+
+    @property
+    def is_empty(self) -> bool:
+        return not self._faces
 
     @property
     def has_surfaces(self) -> bool:
@@ -239,7 +255,7 @@ class Pile:
             *(self._clip[: self._used], self._colors[: self._used], faces, looks, uvs),
             *(
                 [_texture(pixels) for pixels in self._textures],
-                SAMPLES if len(faces) <= _MANY else _FEWER_SAMPLES,
+                _samples_for(looks),
             ),
             *(resolve_backend(), resolve_threads(), out),
         )
@@ -251,6 +267,13 @@ def _texture(pixels: np.ndarray):
     return _native.NativeTexture(
         np.ascontiguousarray(pixels), False, nearest, clamp, clamp, 1, 0.0, False
     )
+
+
+def _samples_for(looks: np.ndarray) -> int:
+    """Return the samples of a pixel."""
+    if np.count_nonzero(looks) > _MANY_CLEAR:
+        return _FEWEST_SAMPLES
+    return SAMPLES if len(looks) <= _MANY else _FEWER_SAMPLES
 
 
 def drop_broken(places: np.ndarray, sizes: np.ndarray) -> None:

@@ -159,6 +159,13 @@ def draw_edges(pile: Pile, view: View, collection) -> None:
     edges = colors_of(collection)[1]
     if not len(edges) or not edges[:, 3].any() or not np.any(collection.get_linewidth()):
         return
+    if len(edges) == 1 and (grid := _grid_of(collection)) is not None:
+        shape = collection._engine3d_grid[1]
+        net = view.screen(grid[0]).reshape(*shape, 3)
+        places = np.concatenate([net.reshape(-1, 3), net.transpose(1, 0, 2).reshape(-1, 3)])
+        sizes = np.repeat([shape[1], shape[0]], shape)
+        draw_runs(pile, view, places, sizes, collection, edges, of_faces=True)
+        return
     sizes, points = _polygons_of(collection)
     places = view.screen(points)
     drop_broken(places, sizes)

@@ -14,7 +14,7 @@ from ...rendering.backend_selection import resolve_backend, resolve_threads
 from ._view import Region
 
 _SLACK = 0.002  # of the scene's depth: what counts as the same depth everywhere
-_MOST = 0.035  # of the scene's depth: how far things are brought forward at most
+MOST_LIFT = 0.035  # of the scene's depth: how far things are brought forward at most
 _AROUND = ((0, 0), (-1, 0), (1, 0), (0, -1), (0, 1))
 
 
@@ -33,17 +33,22 @@ class Surfaces:
         self._clip, self._faces = clip, faces
 
     def limited(self, rise: np.ndarray, span: float) -> np.ndarray:
-        return np.minimum(rise, _MOST * span)
+        return np.minimum(rise, MOST_LIFT * span)
 
-    def under(self, places: np.ndarray, span: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return the rise of the surface at places, depth a pixel, and which lie on it."""
+    def under(
+        self, places: np.ndarray, span: float, looks_round: bool
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the rise of the surface at places, depth a pixel, and which lie on it.
+
+        ``looks_round``: at neighbouring pixels as well, for what lies at the rim of its face.
+        """
         rise, gap = np.zeros(len(places)), np.full(len(places), np.inf)
         width, height = self._size
         column, row = (
             np.nan_to_num(np.floor(places[:, k]), nan=-9.0, posinf=-9.0, neginf=-9.0)
             for k in (0, 1)
         )
-        for right, down in _AROUND:
+        for right, down in _AROUND if looks_round else _AROUND[:1]:
             x, y = column + right, row + down
             inside = np.flatnonzero((x >= 0) & (x < width) & (y >= 0) & (y < height))
             face = self._face_id[y[inside].astype(int), x[inside].astype(int)]
@@ -54,7 +59,7 @@ class Surfaces:
             apart = np.abs(places[inside, 2] - depth)
             better = apart < gap[inside]
             rise[inside[better]], gap[inside[better]] = steep[better], apart[better]
-        return rise, gap <= np.minimum(rise, _MOST * span) + _SLACK * span
+        return rise, gap <= np.minimum(rise, MOST_LIFT * span) + _SLACK * span
 
     def _planes(self, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how steep the planes of faces are, and their depths at places."""

@@ -64,7 +64,7 @@ class Painter:
 
 
 def draw_texts(
-    pile: Pile, view: View, texts: list[tuple[int, Text3D]], painter: Painter
+    pile: Pile, view: View, texts: list[tuple[int, Text3D]], painter: Painter, everyone: bool
 ) -> list[Text3D]:
     """Add those texts that something hides in part; each is as deep as its place.
 
@@ -72,6 +72,8 @@ def draw_texts(
     ----------
     texts : list of (number, Text3D)
         With what `Pile.begin` takes.
+    everyone : bool
+        Add those that nothing hides as well.
 
     Returns
     -------
@@ -82,23 +84,26 @@ def draw_texts(
         view.screen(np.array([[float(v) for v in text.get_position_3d()]])) for _, text in texts
     ]
     shown = [
-        (float(place[0, 2]), *text)
+        (place, *text)
         for place, text in zip(places, texts, strict=True)
         if np.isfinite(place).all()
     ]
+    has_others = bool(shown) and not pile.is_empty
     depths = pile.depths() if shown else np.empty((0, 0))
     free: list[Text3D] = []
-    for _, number, text in sorted(shown, key=lambda one: (one[0], -one[1])):
+    for place, number, text in sorted(shown, key=lambda one: (one[0][0, 2], -one[1])):
+        if not has_others and not everyone:
+            free.append(text)
+            continue
         text.draw(painter.renderer)
         painted = painter.taken()
         if painted is None:
-            free.append(text)
+            free += [] if everyone else [text]
             continue
         pixels, left, top = painted
-        place = view.screen(np.array([[float(v) for v in text.get_position_3d()]]))
         lifted = float(pile.lifted(place, np.array([0.5 * min(pixels.shape[:2])]))[0, 2])
         behind = depths[top : top + len(pixels), left : left + pixels.shape[1]]
-        if not (behind[pixels[..., 3] > 0] < lifted).any():
+        if not everyone and not (behind[pixels[..., 3] > 0] < lifted).any():
             free.append(text)
             continue
         pile.begin(number)

@@ -14,7 +14,6 @@ import numpy as np
 
 _ROUND_TURN = 0.5  # cosines below it: a turn gets a join of its own
 _MITER_TURN = -0.75
-_STEP = 4.0  # pixels: pieces are no longer where depths are looked up
 
 
 class Stroke(NamedTuple):
@@ -187,8 +186,10 @@ def cut(places: np.ndarray, runs: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     return places[differs], runs[differs], kept[differs]
 
 
-def finer(places: np.ndarray, runs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Cut long segments into pieces of a few pixels; depths are linear on the screen.
+def finer(
+    places: np.ndarray, runs: np.ndarray, most: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Cut segments into pieces of at most so many pixels; depths are linear on the screen.
 
     Returns places, runs, and the number of the point at which a piece begins.
     """
@@ -196,7 +197,7 @@ def finer(places: np.ndarray, runs: np.ndarray) -> tuple[np.ndarray, np.ndarray,
         return places, runs, np.arange(len(places))
     step = places[1:] - places[:-1]
     length = np.sqrt(step[:, 0] ** 2 + step[:, 1] ** 2)
-    pieces = np.clip(np.ceil(length / _STEP), 1, 4096).astype(int)
+    pieces = np.clip(np.ceil(length / most), 1, 4096).astype(int)
     pieces[runs[1:] != runs[:-1]] = 1
     pieces = np.append(pieces, 1)
     source = np.repeat(np.arange(len(places)), pieces)

@@ -38,11 +38,18 @@ clip_triangles clip_triangles_create(random_stream *r, int32_t most_side)
     t.cull = (e3d_cull)random_below(r, 3);
     t.clip = calloc((size_t)t.vertices * 4, sizeof *t.clip);
     t.faces = calloc((size_t)t.faces_count * 3 + 1, sizeof *t.faces);
-    if (t.clip == NULL || t.faces == NULL)
+    t.colors = calloc((size_t)t.vertices * 4, sizeof *t.colors);
+    t.looks = calloc((size_t)t.faces_count + 1, sizeof *t.looks);
+    if (t.clip == NULL || t.faces == NULL || t.colors == NULL || t.looks == NULL)
         abort();
     (random_once_in(r, 3) ? align : scatter)(&t, r);
     for (int32_t i = 0; i < 3 * t.faces_count; i++)
         t.faces[i] = random_below(r, t.vertices);
+    t.samples = 1 << random_below(r, 5);
+    for (int32_t i = 0; i < 4 * t.vertices; i++)
+        t.colors[i] = (uint8_t)random_below(r, 256);
+    for (int32_t i = 0; i < t.faces_count; i++)
+        t.looks[i] = random_below(r, 2);
     return t;
 }
 
@@ -50,4 +57,6 @@ void clip_triangles_destroy(clip_triangles *t)
 {
     free(t->clip);
     free(t->faces);
+    free(t->colors);
+    free(t->looks);
 }

@@ -1,4 +1,4 @@
-/* Random and hostile triangles in clip space, for e3d_rasterize.
+/* Random and hostile triangles in clip space, for e3d_rasterize and e3d_draw_clip.
  *
  * In:  a stream of random numbers.
  * Out: arrays, which the triangles own.
@@ -12,6 +12,9 @@
 typedef struct clip_triangles {
     float *clip;    /* (vertices, 4) */
     int32_t *faces; /* (faces_count, 3) */
+    uint8_t *colors; /* (vertices, 4) */
+    int32_t *looks;  /* (faces_count,) 0: opaque, 1: blended */
+    int32_t samples; /* a pixel, of those that are drawn with colours */
     int32_t vertices, faces_count, width, height;
     e3d_cull cull;
 } clip_triangles;

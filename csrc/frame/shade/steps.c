@@ -60,6 +60,11 @@ static void hide_lights(const e3d_steps *s)
     s->pass->kernels->exact_shadows(batch_of(s), &s->pass->view->lighting, s->pass->casters, &s->out->memory->receivers);
 }
 
+static void dim_lights(const e3d_steps *s)
+{
+    s->pass->kernels->soft_exact_shadows(batch_of(s), &s->pass->view->lighting, s->pass->casters, &s->out->memory->receivers);
+}
+
 static void light(const e3d_steps *s)
 {
     const e3d_prepared *pass = s->pass;
@@ -174,6 +179,7 @@ static void add_radiance_steps(e3d_steps *s)
     const e3d_bucket *bucket = s->bucket;
     add(s, bucket->lit, find_visibility);
     add(s, e3d_receives_exact_shadows(s->pass, bucket), hide_lights);
+    add(s, e3d_receives_exact_shadows(s->pass, bucket) && s->pass->casters->soft_lights, dim_lights);
     add(s, bucket->mirrors, e3d_find_mirrors);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);

@@ -86,6 +86,9 @@ typedef struct e3d_light_maps {
 typedef struct e3d_light_shadow {
     e3d_shadow_kind kind;
     int32_t exact;       /* E3D_SHADOW_EXACT: how many lights of this kind come before this one */
+    /* E3D_SHADOW_EXACT: the size of the light: the tangent of half its angle, or its radius if it has a position; 0: shadows are hard
+     * (R196) */
+    float soft;
     e3d_light_maps maps; /* E3D_SHADOW_MAP */
 } e3d_light_shadow;
 

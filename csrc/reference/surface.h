@@ -115,8 +115,8 @@ void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, fl
 float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *surface, const float l[3]);
 
 /* exact_shadow.c */
-/* R98-R101: whether a caster is between a surface and a light. */
-int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface);
+/* R98-R102, R194, R196-R198: the share of a light that no caster hides. */
+float ref_exact_share(const e3d_light *light, const ref_surface *surface, const float l[3]);
 
 /* texture.c, R190: lod of R26 before it is limited, or 0 for a texture without levels or alpha */
 int32_t ref_texture_alpha_lod(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at);

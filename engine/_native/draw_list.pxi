@@ -497,10 +497,10 @@ cdef class NativeDrawList:
             maps.ranges = &ranges[0, 0, 0]
         light.shadow.kind = E3D_SHADOW_MAP
 
-    def set_exact_shadow(self, int number):
-        """Give a light an exact shadow; lights get theirs in their order."""
+    def set_exact_shadow(self, int number, float soft):
+        """Give a light of a size (R196) an exact shadow; lights get theirs in their order."""
         cdef e3d_light_shadow *shadow = &self.light_at(number).shadow
         require(self.exact_light_count < E3D_MAX_EXACT_LIGHTS,
                 f"at most {E3D_MAX_EXACT_LIGHTS} lights of a frame may have an exact shadow")
-        shadow.kind, shadow.exact = E3D_SHADOW_EXACT, self.exact_light_count
+        shadow.kind, shadow.exact, shadow.soft = E3D_SHADOW_EXACT, self.exact_light_count, soft
         self.exact_light_count += 1

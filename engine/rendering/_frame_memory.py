@@ -29,8 +29,8 @@ _KEPT_SAMPLE = 8  # a depth and an ID: csrc/frame/tile/kept.c
 _MOST_KEPT = 1 << 25  # samples of a picture: E3D_MOST_KEPT_SAMPLES of csrc/frame/pass/plan.h
 _TILE_PLANE = 24 * 4096  # depth, ID, colour and count for each sample of a tile
 # Approximate bytes per face that casts exact shadows: its corners; and for each light, these again
-# and the boxes of the grid cells it is in.
-_CASTER, _CASTER_OF_LIGHT = 37, 160
+# and the boxes of the grid cells it is in; for soft lights, the nodes of a tree.
+_CASTER, _CASTER_OF_LIGHT, _CASTER_OF_TREE = 37, 160, 68
 _SHOWN = 20  # an error names each part that takes at least 1/20 of the total
 
 
@@ -117,16 +117,17 @@ class FrameMemory:
             self._of_maps.append(Use(size, what, "a smaller shadow_map_size"))
         self._check()
 
-    def add_exact(self, lights: int, faces: int) -> None:
-        """Add exact shadows of given numbers of faces and lights.
+    def add_exact(self, lights: int, soft: int, faces: int) -> None:
+        """Add exact shadows of given numbers of faces, and of lights without and with a size.
 
         Raises
         ------
         InvalidArgumentError
             The frame would exceed the limit.
         """
-        size = faces * (_CASTER + lights * _CASTER_OF_LIGHT)
-        what = f"exact shadows ({lights} lights, {faces} faces that may hide them)"
+        tree = _CASTER_OF_TREE if soft else 0
+        size = faces * (_CASTER + lights * _CASTER_OF_LIGHT + tree)
+        what = f"exact shadows ({lights + soft} lights, {faces} faces that may hide them)"
         self.add(Use(size, what, "shadow='map', or fewer nodes that cast shadows"))
 
     @property

@@ -85,6 +85,14 @@ def test_batches():
     assert all(row["ms_per_picture"] > 0 for row in rows)
 
 
+def test_shadows():
+    rows = report("shadows.py", "--repeats", "1")["rows"]
+    assert {(row["scene"], row["light"]) for row in rows} == {
+        (scene, light) for scene in ("ball", "fence") for light in ("sun", "spot")
+    }
+    assert all(value > 0 for row in rows for value in row["milliseconds"].values())
+
+
 def test_user_interface():
     pytest.importorskip(
         "imgui_bundle", reason="it is an extra: pip install -e .[editor]", exc_type=ImportError

@@ -40,16 +40,16 @@ def pose_of(turned, offset, scale=1.0):
 
 
 def add_light(scene, kind, shadow, to=(2.0, 3.5, 1.5)):
-    """A light from a place, or from its direction: (place, whether it is one)."""
+    """A light from a place, or from its direction; its shadow, or this and its softness."""
     to = np.asarray(to, np.float64)
+    kind_of_shadow, softness = (shadow, 0.0) if isinstance(shadow, str) else shadow
+    how = {"shadow": kind_of_shadow, "shadow_softness": softness}
     if kind == "sun":
-        scene.add(e3d.DirectionalLight(-to, intensity=np.pi, shadow=shadow))
+        scene.add(e3d.DirectionalLight(-to, intensity=np.pi, **how))
     elif kind == "point":
-        scene.add(e3d.PointLight(intensity=float(np.pi * to @ to), shadow=shadow), translation=to)
+        scene.add(e3d.PointLight(intensity=float(np.pi * to @ to), **how), translation=to)
     else:
-        light = e3d.SpotLight(
-            intensity=float(2 * np.pi * to @ to), outer_cone_angle=0.7, shadow=shadow
-        )
+        light = e3d.SpotLight(intensity=float(2 * np.pi * to @ to), outer_cone_angle=0.7, **how)
         scene.add(light, pose=e3d.look_at(to, (0, 0, 0)))
 
 
@@ -357,3 +357,75 @@ def test_walls_close_to_a_round_body_hide_the_light(kind, inside_out):
     shown = frame.object_id == frame.object_id[SIZE[1] // 2, SIZE[0] // 2]
     assert shown.sum() > 1000
     assert not frame.color[..., :3].any()
+
+
+POINTS = 32  # of a soft light's disc
+
+
+def points_of_disc(ways, cosines, size):
+    """R196 and R197 in float64: from the light's middle to each point, (samples, points, 3)."""
+    number = np.arange(POINTS)
+    angle, radius = number * np.pi * (3 - np.sqrt(5)), np.sqrt((number + 0.5) / POINTS)
+    x, y = (np.rint(1024 * radius * f(angle)) / 1024 for f in (np.cos, np.sin))
+    length = np.linalg.norm(ways, axis=1)
+    size = np.minimum(size, 0.5 * cosines * length)[:, None]
+    axis = np.abs(ways).argmax(1)
+    k, rows = np.stack([axis, (axis + 1) % 3, (axis + 2) % 3]), np.arange(len(ways))
+    e = np.zeros_like(ways)
+    e[rows, k[0]], e[rows, k[1]] = -ways[rows, k[1]], ways[rows, k[0]]
+    f = np.cross(ways, e)
+    e, f = (size * v / np.linalg.norm(v, axis=1, keepdims=True) for v in (e, f))
+    return x[:, None] * e[:, None] + y[:, None] * f[:, None]
+
+
+def shares(make, kind, softness, **options):
+    """How much of the light reaches every 60th pixel that it lights, positions, normals."""
+    outputs = ("radiance", "world_position", "world_normal")
+    frames = []
+    for shadow in ("none", ("exact", softness)):
+        scene, pose = make(kind, shadow)
+        camera = (e3d.PerspectiveCamera(), pose)
+        frames.append(render(scene, camera, size=SIZE, outputs=outputs, **options))
+    lit = frames[0].radiance[..., 1] > 1e-4
+    share = frames[1].radiance[lit][::60, 1] / frames[0].radiance[lit][::60, 1].astype(np.float64)
+    return share, frames[0].world_position[lit][::60], frames[0].world_normal[lit][::60]
+
+
+@pytest.mark.parametrize(("make", "softness"), [(still_life, 0.2), (fence, 0.06), (heap, 0.5)])
+def test_soft_lights_like_rays_cast_in_float64(make, softness, kind):
+    """R198: so many of a disc's points are hidden as rays to them tell."""
+    share, origins, normals = shares(make, kind, softness)
+    origins = origins.astype(np.float64)
+    scene, _ = make(kind, "exact")
+    to = np.array((0.6, 1.4, -1.6) if make is fence else (2.0, 3.5, 1.5))
+    ways = np.broadcast_to(to / np.linalg.norm(to), origins.shape)
+    ways = ways if kind == "sun" else to - origins
+    cosines = (ways * normals).sum(1) / np.linalg.norm(ways, axis=1)
+    size = np.tan(softness / 2) if kind == "sun" else softness
+    ways = (ways[:, None] + points_of_disc(ways, cosines, size)).reshape(-1, 3)
+    far = np.linalg.norm(ways, axis=1)
+    ends = far if kind != "sun" else np.full(len(far), np.inf)
+    hidden = hits(np.repeat(origins, POINTS, 0), ways / far[:, None], ends, triangles_of(scene))
+    counts = POINTS - hidden.reshape(-1, POINTS).sum(1)
+    differ = np.abs(np.rint(share * POINTS) - counts)
+    assert np.abs(share * POINTS - np.rint(share * POINTS)).max() < 1e-3
+    assert differ.max() <= 2 and (differ > 0).mean() < 0.02  # rays that graze an edge
+    assert ((counts > 0) & (counts < POINTS)).mean() > 0.01
+
+
+def test_a_light_of_hardly_any_size_shades_as_one_without(kind):
+    hard, soft = (picture(still_life, kind, how) for how in ("exact", ("exact", 1e-6)))
+    assert (hard.color != soft.color).any(-1).mean() < 0.01
+
+
+def test_a_renderer_that_drew_hard_shadows_draws_soft_ones_and_back(kind):
+    """Neither grids nor trees of other lights or of earlier casters show."""
+    with Renderer(SIZE) as renderer:
+        for make in (still_life, heap, still_life):
+            for shadow in ("exact", ("exact", 0.2), ("exact", 0.1), "exact"):
+                scene, pose = make(kind, shadow)
+                for height in (0.0, 0.4):
+                    scene.nodes[1].translation = (0, 0.4 + height, 0)
+                    seen = renderer.render(scene, (e3d.PerspectiveCamera(), pose)).color
+                    fresh = render(scene, (e3d.PerspectiveCamera(), pose), size=SIZE).color
+                    np.testing.assert_array_equal(seen, fresh)

@@ -7,7 +7,8 @@ from images.scenes_alpha import leaf, pane
 
 import engine3d as e3d
 
-SUN = e3d.DirectionalLight((-0.5, -0.8, -0.35), intensity=0.8 * np.pi, shadow="exact")
+SUN_WAY = (-0.5, -0.8, -0.35)
+SUN = e3d.DirectionalLight(SUN_WAY, intensity=0.8 * np.pi, shadow="exact")
 
 
 def lamp(scene, kind, **options):
@@ -133,3 +134,53 @@ def crowd(batching):
 
 variant("exact_shadow_crowd", crowd, True)
 variant("exact_shadow_crowd_apart", crowd, False)
+
+
+def porch(kinds, softness, samples=1, physical=False, **options):
+    """Few faces under soft lights: flat ones, smooth ones, mirrored ones, one with holes, glass."""
+    surface = {"metallic": 0.2, "roughness": 0.5} if physical else {}
+    scene = e3d.Scene(background=(20, 24, 34), ambient=e3d.linear(0.08, 0.08, 0.1))
+    scene.add(floor(3.0, color=e3d.linear(0.7, 0.7, 0.7), **surface))
+    crate = with_material(e3d.box(0.5), color=CORAL, **surface)
+    scene.add(crate, translation=(-0.3, 0.25, 0.1), euler=(0, 0.5, 0))
+    ball = with_material(e3d.icosphere(0.3, 1), color=TEAL, **surface)
+    scene.add(ball, translation=(0.5, 0.35, 0.3), scale=(-1, 1, 1))
+    texture = leaf(filter="bilinear", wrap="repeat")
+    scene.add(
+        pane((1, 1, 1), size=0.6, texture=texture, alpha_mode="mask"), translation=(0, 0.4, 0.6)
+    )
+    glass = pane(e3d.linear(0.4, 0.8, 1, 0.7), 1, size=0.4, alpha_mode="blend")
+    scene.add(glass, translation=(-0.7, 0.5, 0.5))
+    for kind in kinds:
+        if kind == "sun":
+            scene.add(e3d.DirectionalLight(SUN_WAY, shadow="exact", shadow_softness=softness))
+        else:
+            lamp(scene, kind, shadow_softness=softness)
+    return Picture(scene, camera_at((1.3, 1.7, 2.2), (0, 0.3, 0)), samples=samples, options=options)
+
+
+variant("exact_soft_sun", porch, ["sun"], 0.15)
+variant("exact_soft_point", porch, ["point"], 0.1, normals="flat")
+variant("exact_soft_spot", porch, ["spot"], 0.3, shading="forward")
+variant("exact_soft_wide", porch, ["sun", "point"], 1.5, physical=True)
+
+
+def crumbs(kind):
+    """Triangles in all directions, few of them, some through corners and edges of others."""
+    rng = np.random.default_rng(11)
+    corners = rng.uniform(-1, 1, (40, 1, 3)) + 0.3 * rng.normal(size=(40, 3, 3))
+    mesh = e3d.Mesh(np.round(corners.reshape(-1, 3) * 16) / 16, np.arange(120).reshape(-1, 3))
+    mesh = with_material(mesh, color=e3d.linear(0.8, 0.8, 0.8), two_sided=True, flat_shading=True)
+    scene = e3d.Scene(background=(0, 0, 0), ambient=e3d.linear(0.1, 0.1, 0.1))
+    scene.add(mesh)
+    scene.add(floor(6.0, color=e3d.linear(0.8, 0.7, 0.6)), translation=(0, -1, 0))
+    if kind == "sun":
+        scene.add(e3d.DirectionalLight((0, -1, 0), shadow="exact", shadow_softness=0.5))
+    else:
+        light = e3d.PointLight(intensity=2 * np.pi, shadow="exact", shadow_softness=0.25)
+        scene.add(light, translation=(0.25, 0.5, 0.125))
+    return Picture(scene, camera_at((1.5, 1.9, 3.5), (0, 0, 0)))
+
+
+variant("exact_soft_crumbs_sun", crumbs, "sun")
+variant("exact_soft_crumbs_point", crumbs, "point")

@@ -5,6 +5,7 @@
 #include "kernels/types/casters.h"
 #include "frame/cast/faces.h"
 #include "frame/cast/grids.h"
+#include "frame/cast/tree.h"
 
 typedef struct e3d_caster_memory {
     e3d_caster_faces faces;
@@ -13,6 +14,8 @@ typedef struct e3d_caster_memory {
     e3d_light made_for[E3D_MAX_EXACT_LIGHTS]; /* the lights, as they were */
     e3d_light_memory of_light[E3D_MAX_EXACT_LIGHTS];
     int32_t kept_lights; /* whose grids are those of the casters */
+    e3d_tree_memory tree;
+    int has_tree; /* of the casters */
 } e3d_caster_memory;
 
 /* Brings the index of casters up to date with a frame whose lights have exact shadows. */

@@ -65,6 +65,20 @@ const void *e3d_caster_mesh_of(const e3d_caster_index *index, uint32_t caster)
     return faces->casters.draws[e3d_caster_instance_of(faces, caster)->draw].mesh;
 }
 
+int e3d_caster_is_spared(const e3d_caster_index *index, uint32_t caster, int32_t exact)
+{
+    const e3d_caster_faces *faces = index->source;
+    return (int)(faces->casters.draws[e3d_caster_instance_of(faces, caster)->draw].spared_lights >> exact & 1);
+}
+
+int e3d_any_caster_is_spared(const e3d_casters *casters)
+{
+    for (int32_t d = 0; d < casters->draw_count; d++)
+        if (casters->draws[d].spared_lights)
+            return 1;
+    return 0;
+}
+
 /* ---- corners ---- */
 
 static void place_faces(const e3d_caster_faces *faces, const e3d_caster_instance *instance, int32_t first, int32_t end)

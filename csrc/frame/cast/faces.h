@@ -25,5 +25,8 @@ int e3d_casters_are_valid(const e3d_casters *casters);
 e3d_status e3d_place_casters(e3d_caster_faces *faces, int32_t threads);
 /* Returns the mesh that a caster belongs to. */
 const void *e3d_caster_mesh_of(const e3d_caster_index *index, uint32_t caster);
+/* Whether a caster is none for an exact light. */
+int e3d_caster_is_spared(const e3d_caster_index *index, uint32_t caster, int32_t exact);
+int e3d_any_caster_is_spared(const e3d_casters *casters);
 /* Returns the instance that a caster belongs to. */
 const e3d_caster_instance *e3d_caster_instance_of(const e3d_caster_faces *faces, uint32_t caster);

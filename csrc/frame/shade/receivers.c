@@ -27,6 +27,9 @@ void e3d_find_receivers(const e3d_steps *s, e3d_shade_memory *memory)
 
 void e3d_hide_lights(const e3d_steps *s)
 {
+    const e3d_prepared *pass = s->pass;
     e3d_shade_memory *memory = s->out->memory;
-    s->pass->kernels->exact_shadows(&memory->batch, &s->pass->view->lighting, s->pass->casters, &memory->receivers);
+    pass->kernels->exact_shadows(&memory->batch, &pass->view->lighting, pass->casters, &memory->receivers);
+    if (pass->casters->soft_lights)
+        pass->kernels->soft_exact_shadows(&memory->batch, &pass->view->lighting, pass->casters, &memory->receivers);
 }

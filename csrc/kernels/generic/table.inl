@@ -23,6 +23,7 @@
 #include "kernels/generic/shade/anisotropic.inl"
 #include "kernels/generic/shade/light.inl"
 #include "kernels/generic/shade/exact_shadow.inl"
+#include "kernels/generic/shade/soft_exact.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/shade/albedo.inl"
 #include "kernels/generic/shade/lobe.inl"

@@ -40,15 +40,36 @@ typedef struct e3d_caster_light {
     e3d_caster_grid grids[E3D_CASTER_FACES]; /* directional: the first one; else by 2 * axis, and + 1 where that is negative */
 } e3d_caster_light;
 
+/* A node of the tree of casters, whose nodes lie in the order of a walk: a node's first child follows it. A leaf has `count`
+ * casters, from `first` on in the list of the tree. */
+typedef struct e3d_caster_node {
+    float low[3], high[3];
+    uint32_t next;  /* the node behind all that is below this one */
+    uint32_t first; /* of a leaf: first << E3D_CASTER_COUNT_BITS | count; else 0 */
+} e3d_caster_node;
+
+enum { E3D_CASTER_COUNT_BITS = 3 };
+
+/* The casters by their place in the world, for soft lights. */
+typedef struct e3d_caster_tree {
+    const e3d_caster_node *nodes;
+    uint32_t node_count;
+    const uint32_t *casters;
+} e3d_caster_tree;
+
 typedef struct e3d_caster_index {
     const e3d_caster_light *lights;
     int32_t light_count;
+    int32_t soft_lights; /* how many of them are soft: these have no grids, but the tree */
+    e3d_caster_tree tree;
     const float (*world)[9];    /* for each caster the corners' x, y, z */
     const uint8_t *may_be_open; /* for each caster whether its material has holes */
     const uint8_t *is_mirrored; /* for each caster whether its instance's matrix mirrors */
     /* Whether a caster with holes is open at a hit with these weights (R101). */
     int (*is_open)(const struct e3d_caster_index *index, uint32_t caster, const float weight[3]);
+    int any_spared; /* not 0: some casters do not shadow some lights */
+    int (*is_spared)(const struct e3d_caster_index *index, uint32_t caster, int32_t exact);
     /* The mesh that a caster belongs to. */
     const void *(*mesh_of)(const struct e3d_caster_index *index, uint32_t caster);
-    const void *source; /* for these two */
+    const void *source; /* for these functions */
 } e3d_caster_index;

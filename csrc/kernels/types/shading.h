@@ -85,6 +85,7 @@ typedef struct e3d_batch {
     e3d_lane_array curvature;  /* R191 */
     /* `reached` of R93 for the lights whose numbers are in `sun`; the kernels that light the batch find it */
     e3d_lane_array reached[E3D_SUNS];
+    e3d_lane_array soft_reached[E3D_MAX_EXACT_LIGHTS]; /* `reached` of R196 for soft lights with exact shadows, by their number among these */
     int32_t sun[E3D_SUNS];
     int count, facets;
     const e3d_lane_array *unmapped_normal; /* the normals before they were mapped; NULL: `normal` isn't mapped */

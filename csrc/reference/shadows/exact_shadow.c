@@ -1,9 +1,10 @@
-/* Exact shadow: whether a caster lies between a sample and a light.
- * In: a surface, a light, and all casters of the scene: each one is tested. Out: whether one of them hides the light.
+/* Exact shadow: how much of a light casters leave to a sample.
+ * In: a surface, a light, and all casters of the scene: each one is tested. Out: 0 or 1; of a soft light also between.
  * Rules: R98 (the plane of the light), R99 (which casters the ray goes through), R100 (the plane of the sample), R101 (hits), R194
- * (rays from the body that normals tell of).
+ * (rays from the body that normals tell of), R196-R198 (soft lights).
  * Sources: of R99 Woop, Benthin and Wald 2013 ("Watertight ray/triangle intersection"), of R194 Hanika 2021 ("Hacking the shadow
  * terminator"). */
+#include "data/light_points.h"
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
@@ -82,16 +83,9 @@ static int spans_zero(const float v[3])
     return ref_min(ref_min(v[0], v[1]), v[2]) <= 0.0f && ref_max(ref_max(v[0], v[1]), v[2]) >= 0.0f;
 }
 
-/* R99 */
-static int goes_through(const eye *e, const seen *s, float weight[3])
+/* R99, from where the corners are around the ray. */
+static int is_around(const float a[3], const float b[3], float weight[3])
 {
-    float a[3], b[3];
-    if (!(ref_min(ref_min(s->z[0], s->z[1]), s->z[2]) < e->z))
-        return 0;
-    for (int k = 0; k < 3; k++) {
-        a[k] = s->x[k] - (e->is_point ? e->slope[0] * s->z[k] : e->x);
-        b[k] = s->y[k] - (e->is_point ? e->slope[1] * s->z[k] : e->y);
-    }
     if (!spans_zero(a) || !spans_zero(b))
         return 0;
     for (int k = 0; k < 3; k++) {
@@ -99,6 +93,21 @@ static int goes_through(const eye *e, const seen *s, float weight[3])
         weight[k] = a[i] * b[j] - b[i] * a[j];
     }
     return (weight[0] >= 0.0f && weight[1] >= 0.0f && weight[2] >= 0.0f) || (weight[0] <= 0.0f && weight[1] <= 0.0f && weight[2] <= 0.0f);
+}
+
+static int is_before(const float z[3], float end) { return ref_min(ref_min(z[0], z[1]), z[2]) < end; }
+
+/* R99 */
+static int goes_through(const eye *e, const seen *s, float weight[3])
+{
+    float a[3], b[3];
+    if (!is_before(s->z, e->z))
+        return 0;
+    for (int k = 0; k < 3; k++) {
+        a[k] = s->x[k] - (e->is_point ? e->slope[0] * s->z[k] : e->x);
+        b[k] = s->y[k] - (e->is_point ? e->slope[1] * s->z[k] : e->y);
+    }
+    return is_around(a, b, weight);
 }
 
 /* ---- R100 ---- */
@@ -184,8 +193,8 @@ static int has_hole(const ref_casters *casters, const ref_caster *caster, const 
     return !(alpha >= (material->alpha_mode == E3D_ALPHA_MASK ? material->alpha_cutoff : E3D_BLENDED_CASTER));
 }
 
-/* R101 */
-static int is_above(const eye *e, const plane *plane, const float p[3], const ref_caster *caster, const seen *s, float weight[3])
+/* R101: whether a hit is above the sample's plane; turns the weights into shares. */
+static int is_above(const plane *plane, const float p[3], const ref_caster *caster, float weight[3])
 {
     float det = (weight[0] + weight[1]) + weight[2], height[3];
     if (det == 0.0f)
@@ -200,9 +209,7 @@ static int is_above(const eye *e, const plane *plane, const float p[3], const re
         height[k] = ref_dot3(plane->normal, d) - ref_dot3(plane->slack, size);
         weight[k] = weight[k] * r;
     }
-    if (!(between(weight, height) > plane->limit))
-        return 0;
-    return !e->is_point || between(weight, s->z) > 0.0f;
+    return between(weight, height) > plane->limit;
 }
 
 /* ---- R194 ---- */
@@ -248,6 +255,11 @@ static void find_body(const ref_surface *s, const float p[3], float out[3])
         out[c] = p[c] + ((rise[0] * normal[0][c] + rise[1] * normal[1][c]) + rise[2] * normal[2][c]);
 }
 
+static int is_spared(const ref_casters *casters, const ref_caster *caster, const e3d_light *light)
+{
+    return casters->instances[caster->instance].draw->spared_lights >> light->shadow.exact & 1;
+}
+
 /* R98 to R102: whether a caster hides the light from a place; `leaves`: whether the ray may leave the sample's own body. */
 static int is_hidden_from(const e3d_light *light, const ref_surface *surface, const plane *plane, const float p[3], int leaves)
 {
@@ -257,10 +269,10 @@ static int is_hidden_from(const e3d_light *light, const ref_surface *surface, co
         const ref_caster *caster = &casters->items[n];
         seen s;
         float weight[3];
-        if (casters->instances[caster->instance].draw->spared_lights >> light->shadow.exact & 1)
+        if (is_spared(casters, caster, light))
             continue;
         see(&e, caster, &s);
-        if (goes_through(&e, &s, weight) && is_above(&e, plane, p, caster, &s, weight) && !has_hole(casters, caster, weight) &&
+        if (goes_through(&e, &s, weight) && is_above(plane, p, caster, weight) && (!e.is_point || between(weight, s.z) > 0.0f) && !has_hole(casters, caster, weight) &&
             !(leaves && is_left(surface, caster, plane)))
             return 1;
     }
@@ -268,15 +280,126 @@ static int is_hidden_from(const e3d_light *light, const ref_surface *surface, co
 }
 
 /* R102 and R194 */
-int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface)
+static int is_hidden(const e3d_light *light, const ref_surface *surface, const plane *plane, int away)
 {
-    plane plane = plane_of(surface, light);
-    int away = turns_away(surface, &plane);
     float body[3];
-    if (is_hidden_from(light, surface, &plane, surface->lit_position, away))
+    if (is_hidden_from(light, surface, plane, surface->lit_position, away))
         return 1;
     if (!away)
         return 0;
     find_body(surface, surface->lit_position, body);
-    return is_hidden_from(light, surface, &plane, body, 0);
+    return is_hidden_from(light, surface, plane, body, 0);
+}
+
+/* ---- soft lights ---- */
+
+/* R197: the light's disc as a sample sees it. */
+typedef struct disc {
+    const e3d_light *light;
+    int axis, is_negative; /* k, and of z along it */
+    float e[3], f[3];
+} disc;
+
+static void find_towards(const e3d_light *light, const float p[3], float out[3])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = e3d_light_traits_of(light->kind).has_position ? light->position[c] - p[c] : light->to_light[c];
+}
+
+/* R196 and R197 */
+static disc find_disc(const e3d_light *light, const ref_surface *surface, const float t[3], const float l[3])
+{
+    disc out = {.light = light, .axis = longest(t)};
+    int k = out.axis, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    float cosine = ref_dot3(surface->shading_normal, l), length = sqrtf(ref_dot3(t, t));
+    float size = ref_max(ref_min(light->shadow.soft, (0.5f * cosine) * length), 0.0f);
+    float square = t[k] * t[k] + t[k1] * t[k1], s = size / sqrtf(square);
+    out.is_negative = t[k] > 0.0f;
+    out.e[k] = (0.0f - t[k1]) * s;
+    out.e[k1] = t[k] * s;
+    out.e[k2] = 0.0f;
+    s = s / length;
+    out.f[k] = (0.0f - t[k2] * t[k]) * s;
+    out.f[k1] = (0.0f - t[k2] * t[k1]) * s;
+    out.f[k2] = square * s;
+    return out;
+}
+
+/* R198: a ray to a point of the disc. */
+typedef struct disc_ray {
+    int axis, is_negative;
+    float x, y, z, slope[2]; /* of the sample; towards the light */
+    int ends;                /* whether the light has a position: */
+    float end;               /* z of the point */
+} disc_ray;
+
+static float height(float along, int is_negative) { return is_negative ? 0.0f - along : along; }
+
+static int is_finite(float v) { return v - v == 0.0f; }
+
+/* Returns 0 if the ray is none. */
+static int find_ray(const disc *d, int point, const float p[3], disc_ray *out)
+{
+    float x = E3D_LIGHT_POINT_X[point] * 0x1p-10f, y = E3D_LIGHT_POINT_Y[point] * 0x1p-10f, t[3], o[3];
+    int k = d->axis, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    find_towards(d->light, p, t);
+    for (int c = 0; c < 3; c++) {
+        o[c] = x * d->e[c] + y * d->f[c];
+        t[c] = t[c] + o[c];
+    }
+    *out = (disc_ray){k, d->is_negative, p[k1], p[k2], height(p[k], d->is_negative), {t[k1] / fabsf(t[k]), t[k2] / fabsf(t[k])}, 0, 0.0f};
+    out->ends = e3d_light_traits_of(d->light->kind).has_position;
+    out->end = height(d->light->position[k] + o[k], d->is_negative);
+    return is_finite(out->x) && is_finite(out->y) && is_finite(out->z) && is_finite(out->slope[0]) && is_finite(out->slope[1]);
+}
+
+/* R198 */
+static int meets(const disc_ray *r, const plane *plane, const float p[3], const ref_casters *casters, const ref_caster *caster)
+{
+    float a[3], b[3], z[3], weight[3];
+    for (int j = 0; j < 3; j++) {
+        const float *v = caster->corner[j];
+        z[j] = height(v[r->axis], r->is_negative);
+        a[j] = v[(r->axis + 1) % 3] - (r->x + (r->z - z[j]) * r->slope[0]);
+        b[j] = v[(r->axis + 2) % 3] - (r->y + (r->z - z[j]) * r->slope[1]);
+    }
+    return is_before(z, r->z) && is_around(a, b, weight) && is_above(plane, p, caster, weight) && (!r->ends || between(weight, z) > r->end) &&
+           !has_hole(casters, caster, weight);
+}
+
+static int is_point_hidden(const disc *d, int point, const ref_surface *surface, const plane *plane, const float p[3], int leaves)
+{
+    const ref_casters *casters = surface->casters;
+    disc_ray r;
+    if (!find_ray(d, point, p, &r))
+        return 0;
+    for (int64_t n = 0; n < casters->count; n++) {
+        const ref_caster *caster = &casters->items[n];
+        if (!is_spared(casters, caster, d->light) && meets(&r, plane, p, casters, caster) && !(leaves && is_left(surface, caster, plane)))
+            return 1;
+    }
+    return 0;
+}
+
+/* R196 */
+static float soft_share(const e3d_light *light, const ref_surface *surface, const plane *plane, int away, const float l[3])
+{
+    const disc d = find_disc(light, surface, plane->towards, l);
+    const float *p = surface->lit_position;
+    float body[3];
+    int hidden = 0;
+    if (away)
+        find_body(surface, p, body);
+    for (int i = 0; i < E3D_LIGHT_POINTS; i++)
+        hidden += is_point_hidden(&d, i, surface, plane, p, away) || (away && is_point_hidden(&d, i, surface, plane, body, 0));
+    return (float)(E3D_LIGHT_POINTS - hidden) * (1.0f / E3D_LIGHT_POINTS);
+}
+
+float ref_exact_share(const e3d_light *light, const ref_surface *surface, const float l[3])
+{
+    const plane plane = plane_of(surface, light);
+    int away = turns_away(surface, &plane);
+    if (light->shadow.soft > 0.0f)
+        return soft_share(light, surface, &plane, away, l);
+    return is_hidden(light, surface, &plane, away) ? 0.0f : 1.0f;
 }

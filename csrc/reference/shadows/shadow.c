@@ -169,7 +169,7 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
     if (surface->instance->draw->unshadowed)
         return 1.0f;
     if (light->shadow.kind == E3D_SHADOW_EXACT)
-        return ref_is_in_exact_shadow(light, surface) ? 0.0f : 1.0f;
+        return ref_exact_share(light, surface, l);
     for (int k = 0; k < 3; k++)
         p[k] = e3d_light_traits_of(light->kind).has_position ? surface->lit_position[k] - light->position[k] : surface->lit_position[k];
     const e3d_light_maps *shadow = &light->shadow.maps;

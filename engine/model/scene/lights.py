@@ -102,9 +102,10 @@ class DirectionalLight(DirectLight):
     shadow_taps : {1, 3, 5}
         Comparisons per side: 1, 3 x 3 or 5 x 5, each interpolated between four texels.
     shadow_softness : float
-        The sun's size, for shadow maps: its diameter in the sky in radians, 0 to pi/2; that of the
-        real sun is 0.0093. Shadows are the softer, the farther they fall. 0 softens all edges
-        alike, by ``shadow_radius``, which takes less time.
+        The sun's size: its diameter in the sky in radians, 0 to pi/2; that of the real sun is
+        0.0093. Shadows are the softer, the farther they fall. ``shadow="exact"`` casts rays to 32
+        fixed points of the sun. 0 takes less time: exact shadows are hard, those of maps are soft
+        at all edges alike, by ``shadow_radius``.
     shadow_cascades : int
         Maximum number of cascades, 1 to 8: the last map covers the whole scene, each earlier one
         the view to a quarter of the next one's depth. Small scenes use fewer.
@@ -187,7 +188,7 @@ class PointLight(DirectLight):
     shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
         As for `DirectionalLight`; the light has six maps, the faces of a cube.
     shadow_softness : float
-        The lamp's radius in world units, for shadow maps; otherwise as for `DirectionalLight`.
+        The lamp's radius in world units; otherwise as for `DirectionalLight`.
 
     Attributes
     ----------

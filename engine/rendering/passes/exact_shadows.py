@@ -20,6 +20,7 @@ from ..casters import placed_casters
 from ..draw_list.lamps import lamp_slots
 from ..options import RenderOptions, shows_light
 from .protocol import Pass, Picture, Tools
+from .shadow_maps import size_of
 
 _versions = itertools.count(1)
 
@@ -45,12 +46,13 @@ class ExactShadows(Pass):
     def draw(self, picture: Picture) -> None:
         draw_list, scene = self.tools.draw_list, picture.scene
         lights = [at for at in draw_list.lights.placed() if at[1].shadow == "exact"]
-        for number, *_ in lights:
-            draw_list.native.set_exact_shadow(number)
+        for number, light, *_ in lights:
+            draw_list.native.set_exact_shadow(number, size_of(light))
         if lights:
             spared = [self._spared(scene, number, place) for number, _, (_, place) in lights]
             self._list_casters(scene.data.arrays, spared)
-            self.tools.memory.add_exact(len(lights), draw_list.native.hiding_faces())
+            soft = sum(light.shadow_softness > 0.0 for _, light, _ in lights)
+            self.tools.memory.add_exact(len(lights) - soft, soft, draw_list.native.hiding_faces())
 
     def _spared(
         self, scene: AnyScene, number: int, place: Sequence[float] | None

@@ -78,8 +78,8 @@ class _LightMaps:
         return min(drawn.nearest for drawn in self.drawn if drawn.nearest is not None)
 
 
-def _softness(light: DirectLight) -> float:
-    """Return the size of a light as R225 takes it; 0 if its shadows are hard."""
+def size_of(light: DirectLight) -> float:
+    """Return the size of a light as R196 and R225 take it; 0 if its shadows are hard."""
     if not isinstance(light, DirectionalLight) or not light.shadow_softness:
         return light.shadow_softness
     half = 0.5 * light.shadow_softness
@@ -200,7 +200,7 @@ class ShadowMaps(Pass):
             self._update_map(kept.depths[k], kept.drawn[k], seen, moment)
         self._count += count
         taps, step = light.shadow_taps, round(256 * light.shadow_radius)
-        soft, widest = _softness(light), widest_radius(light)
+        soft, widest = size_of(light), widest_radius(light)
         self.tools.draw_list.native.set_shadow(
             number,
             kept.depths,

@@ -124,10 +124,12 @@ static const e3d_casters *casters_of(scene *s, random_stream *r)
     return casters;
 }
 
-static void add_exact(e3d_light *light, int32_t *count)
+/* Some are soft. */
+static void add_exact(e3d_light *light, int32_t *count, random_stream *r)
 {
     light->shadow.kind = E3D_SHADOW_EXACT;
     light->shadow.exact = (*count)++;
+    light->shadow.soft = random_once_in(r, 2) ? ldexpf(number(r, 0.5f, 1.0f), random_below(r, 16) - 10) : 0.0f;
 }
 
 void scene_add_shadows(scene *s, random_stream *r)
@@ -138,7 +140,7 @@ void scene_add_shadows(scene *s, random_stream *r)
     fill_depths(depths, CUBE * MOST_SIDE * MOST_SIDE, r);
     for (int32_t n = 0; n < s->frame.light_count; n++)
         if (random_once_in(r, 3))
-            add_exact(&s->lights[n], &exact);
+            add_exact(&s->lights[n], &exact, r);
         else if (!random_once_in(r, 4))
             add_map(s, &s->lights[n], depths, maps, &count, r);
     s->frame.shadow_maps = maps;

@@ -421,28 +421,35 @@ static vmask __attribute__((noinline)) exact_from_bodies(const exact_lanes *from
     return exact_hidden(&at, caster_light, light, lanes);
 }
 
+/* Finds where light n is from a vector of samples, its direction, and their normals before they were mapped; the lanes where it would
+ * add light. */
+static ALWAYS_INLINE vmask exact_lit(exact_lanes *at, const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, vf32 l[3],
+                                     vf32 unmapped[3])
+{
+    vf32 normal[3], attenuation = v_setf(1.0f), zero = v_setf(0.0f);
+    const e3d_light *light = &lighting->lights[n];
+    vmask lanes = v_eqi(v_iota(), v_iota());
+    at->has_plane = at->leaves = 0;
+    for (int c = 0; c < 3; c++) {
+        normal[c] = v_loadf(batch->normal[c] + i);
+        unmapped[c] = batch->unmapped_normal ? v_loadf(batch->unmapped_normal[c] + i) : normal[c];
+        l[c] = at->towards[c] = v_setf(light->to_light[c]);
+    }
+    if (e3d_light_traits_of(light->kind).has_position) {
+        lanes = light_towards(lighting, n, at->position, 0, l, &attenuation);
+        for (int c = 0; c < 3; c++)
+            at->towards[c] = v_sub(v_setf(light->position[c]), at->position[c]);
+    }
+    return v_mand(lanes, v_mand(v_gt(dot_three(normal, l), zero), v_gt(attenuation, zero)));
+}
+
 /* The lanes from which casters hide a light, among those where it would add light. */
 static ALWAYS_INLINE vmask exact_from(exact_lanes *at, const e3d_lighting *lighting, const e3d_caster_light *caster_light,
                                       const e3d_batch *batch, int i)
 {
-    vf32 normal[3], unmapped[3];
-    for (int c = 0; c < 3; c++) {
-        normal[c] = v_loadf(batch->normal[c] + i);
-        unmapped[c] = batch->unmapped_normal ? v_loadf(batch->unmapped_normal[c] + i) : normal[c];
-    }
+    vf32 l[3], unmapped[3];
     const e3d_light *light = &lighting->lights[caster_light->number];
-    int has_position = e3d_light_traits_of(light->kind).has_position;
-    vf32 l[3], attenuation = v_setf(1.0f), zero = v_setf(0.0f);
-    vmask lanes = v_eqi(v_iota(), v_iota());
-    at->has_plane = at->leaves = 0;
-    for (int c = 0; c < 3; c++)
-        l[c] = at->towards[c] = v_setf(light->to_light[c]);
-    if (has_position) {
-        lanes = light_towards(lighting, caster_light->number, at->position, 0, l, &attenuation);
-        for (int c = 0; c < 3; c++)
-            at->towards[c] = v_sub(v_setf(light->position[c]), at->position[c]);
-    }
-    lanes = v_mand(lanes, v_mand(v_gt(dot_three(normal, l), zero), v_gt(attenuation, zero)));
+    vmask lanes = exact_lit(at, lighting, caster_light->number, batch, i, l, unmapped);
     if (!v_any(lanes))
         return lanes;
     if (at->receivers->is_smooth)
@@ -463,6 +470,8 @@ static void kernel_exact_shadows(e3d_batch *batch, const e3d_lighting *lighting,
         for (int c = 0; c < 3; c++)
             at.position[c] = v_loadf(batch->position[c] + i);
         for (int n = 0; n < index->light_count; n++) {
+            if (lighting->lights[index->lights[n].number].shadow.soft > 0.0f)
+                continue;
             at.corners = index->lights[n].corners;
             vmask lanes = exact_from(&at, lighting, &index->lights[n], batch, i);
             hidden = v_seli(lanes, v_ori(hidden, v_seti((int32_t)(UINT32_C(1) << n))), hidden);

@@ -450,6 +450,8 @@ static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, con
                                         const vf32 l[3])
 {
     const e3d_light_shadow *shadow = &lighting->lights[n].shadow;
+    if (shadow->kind == E3D_SHADOW_EXACT && shadow->soft > 0.0f)
+        return v_loadf(batch->soft_reached[shadow->exact] + i);
     if (shadow->kind == E3D_SHADOW_EXACT) {
         vi32 hidden = v_andi(v_loadi(batch->shadowed_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->exact)));
         return v_self(v_eqi(hidden, v_seti(0)), v_setf(1.0f), v_setf(0.0f));

@@ -9,6 +9,7 @@ from . import detail as detail
 from . import errors as errors
 from . import events as events
 from . import golden as golden
+from . import lights as lights
 from . import linalg as linalg
 from . import loaders as loaders
 from . import motion as motion

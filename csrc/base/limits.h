@@ -69,8 +69,14 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_SOFT_WIDEST 64.0f            /* texels: the greatest radius of a soft shadow's lookup (R226) */
 #define E3D_OVER_PI 0x1.45f306p-2f  /* 1 / pi */
 #define E3D_OVER_2PI 0x1.45f306p-3f /* 1 / (2 pi) */
+#define E3D_PI 0x1.921fb6p+1f       /* pi */
 #define E3D_OVER_21 0x1.861862p-5f  /* 1 / 21 */
 #define E3D_THIRD 0x1.555556p-2f    /* 1 / 3 */
+/* Area lights: the least squared length along a surface that tells a direction (R233), of a vector that is divided by its length,
+ * and of an angle's sine (R235) */
+#define E3D_AREA_LEAST_SINE2 0x1p-40f
+#define E3D_AREA_LEAST 0x1p-100f
+#define E3D_AREA_LEAST_TURN 0x1p-23f
 /* R140: a surface that reflects all light would have an infinite index of refraction */
 #define E3D_MOST_IRIDESCENCE_F0 0.9999f
 #define E3D_LEAST_IRIDESCENCE_PRODUCT 1e-5f

@@ -10,27 +10,38 @@
 extern "C" {
 #endif
 
-/* The directions into which a light shines from its place: all of them, or a cone. */
+/* The directions into which a light shines from its place: all of them, a cone, or those ahead of it. */
 typedef enum e3d_emission { E3D_EMITS_EVENLY = 0,
-                            E3D_EMITS_CONE } e3d_emission;
+                            E3D_EMITS_CONE,
+                            E3D_EMITS_AHEAD } e3d_emission;
+
+/* What shines: a point (or what is as far away), or the surface of an area light (R231). */
+typedef enum e3d_light_shape { E3D_SHAPE_POINT = 0,
+                               E3D_SHAPE_RECTANGLE,
+                               E3D_SHAPE_DISC,
+                               E3D_SHAPE_TUBE } e3d_light_shape;
 
 /* The layout of a light's shadow maps. CASCADES: one or several side by side, the finest first. CUBE: six, the faces of a cube
  * around the light, all with the x and y of the first. Else one map, ahead of the light. */
 #define E3D_EACH_MAP_LAYOUT(X) X(E3D_MAPS_CASCADES, cascades) X(E3D_MAPS_CUBE, cube) X(E3D_MAPS_AHEAD, ahead)
 typedef enum e3d_map_layout { E3D_EACH_MAP_LAYOUT(E3D_ENUMERATOR) } e3d_map_layout;
 
-/* The kinds of lights and their traits: X(kind, name, whether it has a place, emission, layout of its maps). A light without a
- * place is infinitely far away. */
+/* The kinds of lights and their traits: X(kind, name, whether it has a place, emission, layout of its maps, shape). A light
+ * without a place is infinitely far away. */
 #define E3D_EACH_LIGHT_KIND(X) \
-    X(E3D_LIGHT_DIRECTIONAL, directional, 0, E3D_EMITS_EVENLY, E3D_MAPS_CASCADES) \
-    X(E3D_LIGHT_POINT, point, 1, E3D_EMITS_EVENLY, E3D_MAPS_CUBE) \
-    X(E3D_LIGHT_SPOT, spot, 1, E3D_EMITS_CONE, E3D_MAPS_AHEAD)
+    X(E3D_LIGHT_DIRECTIONAL, directional, 0, E3D_EMITS_EVENLY, E3D_MAPS_CASCADES, E3D_SHAPE_POINT) \
+    X(E3D_LIGHT_POINT, point, 1, E3D_EMITS_EVENLY, E3D_MAPS_CUBE, E3D_SHAPE_POINT) \
+    X(E3D_LIGHT_SPOT, spot, 1, E3D_EMITS_CONE, E3D_MAPS_AHEAD, E3D_SHAPE_POINT) \
+    X(E3D_LIGHT_RECTANGLE, rectangle, 1, E3D_EMITS_AHEAD, E3D_MAPS_AHEAD, E3D_SHAPE_RECTANGLE) \
+    X(E3D_LIGHT_DISC, disc, 1, E3D_EMITS_AHEAD, E3D_MAPS_AHEAD, E3D_SHAPE_DISC) \
+    X(E3D_LIGHT_TUBE, tube, 1, E3D_EMITS_EVENLY, E3D_MAPS_CUBE, E3D_SHAPE_TUBE)
 typedef enum e3d_light_kind { E3D_EACH_LIGHT_KIND(E3D_ENUMERATOR) } e3d_light_kind;
 
 typedef struct e3d_light_traits {
     int32_t has_position;
     e3d_emission emission;
     e3d_map_layout maps;
+    e3d_light_shape shape;
 } e3d_light_traits;
 
 static inline e3d_light_traits e3d_light_traits_of(e3d_light_kind kind)
@@ -39,6 +50,8 @@ static inline e3d_light_traits e3d_light_traits_of(e3d_light_kind kind)
     static const e3d_light_traits OF_KINDS[] = {E3D_EACH_LIGHT_KIND(E3D_LIGHT_TRAITS)};
     return OF_KINDS[kind];
 }
+
+static inline int e3d_is_area_light(e3d_light_kind kind) { return e3d_light_traits_of(kind).shape != E3D_SHAPE_POINT; }
 
 #define E3D_EACH_FALLOFF(X) \
     X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) \
@@ -103,14 +116,29 @@ e3d_status e3d_find_soft_ranges(const float *depths, int32_t size, int32_t taps,
 typedef struct e3d_light {
     e3d_light_kind kind;
     e3d_falloff falloff;
-    float color[3];      /* colour times intensity, in the frame's working space: lux without a position, candela with one */
+    /* Colour times intensity, in the frame's working space: lux without a position, candela with one, nits of area lights */
+    float color[3];
     float to_light[3];   /* unit vector to the light along its axis, in the world; not of lights that shine evenly from a place */
     float position[3];   /* the position in the world, if the light has one */
     /* If it has a position: the light is exactly 0 from this distance on; may be +inf (not with E3D_FALLOFF_WINDOW) */
     float range;
     float cone[2];       /* E3D_EMITS_CONE: the cosine of the outer angle, and 1 over (cosine of the inner angle - that) */
+    /* Area lights: half the sides of a rectangle, two radii of a disc, whose cross product points along to_light; half a tube's
+     * axis, and nothing */
+    float extent[2][3];
+    float radius;        /* of a tube */
     e3d_light_shadow shadow; /* falls on lit surfaces that receive shadows */
 } e3d_light;
+
+/* The transformed cosines that stand for GGX under area lights (R234). Node (i, j) of 32 x 32 is for roughness i / 31 and a
+ * cosine between normal and viewer of (j / 31)^2. */
+enum { E3D_AREA_SIZE = 32 };
+typedef enum e3d_area_table { E3D_AREA_ALONG,
+                              E3D_AREA_ACROSS,
+                              E3D_AREA_SKEW,
+                              E3D_AREA_RISE,
+                              E3D_AREA_TABLES } e3d_area_table;
+extern const float E3D_AREA_TABLE[E3D_AREA_TABLES][E3D_AREA_SIZE * E3D_AREA_SIZE];
 
 enum { E3D_AMBIENT_TERMS = 9 };
 

@@ -122,6 +122,9 @@ E3D_KERNEL(void, exact_shadows, (e3d_batch *batch, const e3d_lighting *lighting,
 /* soft_reached: for each sample and each soft light with exact shadows, the share of the light that reaches it. */
 E3D_KERNEL(void, soft_exact_shadows, (e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *casters,
            const e3d_receivers *receivers))
+/* Begin energy and shine, or the sums of a physically based material, with what area lights add. */
+E3D_KERNEL(void, area_light, (e3d_batch *batch, const e3d_lighting *lighting, float shininess))
+E3D_KERNEL(void, area_physical, (e3d_batch *batch, const e3d_brdf *brdf, const e3d_lighting *lighting, e3d_texture_batch *textures))
 /* Finds energy, and shine if shininess > 0. */
 E3D_KERNEL(void, light, (e3d_batch *batch, const e3d_lighting *lighting, float shininess))
 /* color = ((color * energy + specular * shine) + emissive) * exposure; specular may be NULL */

@@ -5,8 +5,7 @@
  * Sources: KHR_materials_anisotropy; Burley 2012; Heitz 2014; the bent normal is that of Khronos's sample viewer. */
 #include "reference/surface.h"
 
-/* Finds any direction along the surface, if nothing defines one. */
-static void any_direction(const float n[3], float out[3])
+void ref_any_direction(const float n[3], float out[3])
 {
     const float axis[3] = {fabsf(n[0]) < 0.5f ? 1.0f : 0.0f, fabsf(n[0]) < 0.5f ? 0.0f : 1.0f, 0.0f};
     ref_cross(n, axis, out);
@@ -34,7 +33,7 @@ void ref_find_stretch(const e3d_physical *material, const float texel[4], float 
     ref_normalize(out->t);
     out->strength = ref_clamp(out->strength, 0.0f, 1.0f);
     if (!(ref_dot3(out->t, out->t) > 0.5f)) {
-        any_direction(n, out->t);
+        ref_any_direction(n, out->t);
         out->strength = 0.0f;
     }
     ref_cross(n, out->t, out->b);

@@ -1,8 +1,9 @@
 /* Light: the Blinn-Phong sum over the lights, in their order.
  * In: a surface, the frame's lights. Out: its linear colour, not yet clamped.
- * Rules: R31, R54, R90, R130, R154, R169, and the attenuations there. A light that is out of range adds nothing at all. */
+ * Rules: R31, R54, R90, R130, R154, R169, and the attenuations there; R239 (area lights). A light that is out of range adds
+ * nothing at all. */
+#include "reference/area_light.h"
 #include "reference/arithmetic.h"
-#include "reference/surface.h"
 
 /* R31, R43, R51: `x` is the squared distance over the squared range, `i` is 1 over the distance. */
 static float falloff(const e3d_light *light, float d2, float x, float i, int by_product)
@@ -89,17 +90,50 @@ void ref_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
         out[c] = out[c] + more[c];
 }
 
+/* R239: the light of all area lights; returns 0 if there are none. */
+static int add_area_lights(const e3d_frame *frame, const ref_surface *surface, float diffuse_sum[3], float specular_sum[3])
+{
+    int count = 0;
+    float view[3], shininess = surface->piece->primitive.material->shininess;
+    float roughness = ref_clamp(sqrtf(sqrtf(2.0f / (shininess + 2.0f))), E3D_LEAST_ROUGHNESS, 1.0f);
+    ref_area_frame axes;
+    ref_direction_to_eye(frame, surface, view);
+    ref_find_area_frame(surface->world_normal, view, &axes);
+    for (int32_t n = 0; n < frame->light_count; n++) {
+        ref_area_lit lit;
+        if (!e3d_is_area_light(frame->lights[n].kind))
+            continue;
+        count++;
+        if (!ref_area_light(frame, n, surface, &axes, &lit))
+            continue;
+        float k = (axes.cosine * ref_area_shine(&lit.turned, &axes, roughness)) * (4.0f / (shininess + 2.0f));
+        for (int c = 0; c < 3; c++) {
+            float shown = frame->lights[n].color[c] * E3D_OVER_PI; /* R154 */
+            diffuse_sum[c] = diffuse_sum[c] + shown * lit.e;
+            specular_sum[c] = specular_sum[c] + shown * (lit.share * k);
+        }
+    }
+    return count > 0;
+}
+
 /* R31: E before it is clamped, and S; specular_sum: NULL where nothing shines. */
 static void add_lights(const e3d_frame *frame, const ref_surface *surface, float diffuse_sum[3], float *specular_sum)
 {
     const e3d_material *material = surface->piece->primitive.material;
+    float area_sum[3] = {0.0f, 0.0f, 0.0f}, area_shine[3] = {0.0f, 0.0f, 0.0f};
     ref_irradiance(frame, surface->world_normal, diffuse_sum);
     for (int c = 0; c < 3; c++)
         diffuse_sum[c] = diffuse_sum[c] * surface->visibility;
+    int has_areas = add_area_lights(frame, surface, area_sum, area_shine);
+    for (int c = 0; c < 3 && has_areas; c++) {
+        diffuse_sum[c] = diffuse_sum[c] + area_sum[c];
+        if (specular_sum)
+            specular_sum[c] = specular_sum[c] + area_shine[c];
+    }
     for (int32_t n = 0; n < frame->light_count; n++) {
         const e3d_light *light = &frame->lights[n];
         float l[3], attenuation;
-        if (!ref_light_reach(light, surface->lit_position, 0, l, &attenuation))
+        if (e3d_is_area_light(light->kind) || !ref_light_reach(light, surface->lit_position, 0, l, &attenuation))
             continue;
         float cosine = ref_dot3(surface->world_normal, l);
         cosine = cosine > 0.0f ? cosine : 0.0f;

@@ -2,11 +2,11 @@
  * In: a surface with the values of its textures; the frame's lights, ambient light and environment. Out: its linear colour,
  * not yet clamped.
  * Rules: R49 (the material at a sample), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
- * R56 and R57 (sums), R168 (diffuse transmission), R211 (mirrors).
+ * R56 and R57 (sums), R168 (diffuse transmission), R211 (mirrors), R237 and R238 (area lights).
  * Sources: glTF 2.0, appendix B; Walter et al. 2007 (GGX); Heitz 2014 (Smith); Schlick 1994; Estevez and Kulla 2017 (sheen);
  * Fdez-Aguera 2019 (multiple scattering). */
+#include "reference/area_light.h"
 #include "reference/arithmetic.h"
-#include "reference/surface.h"
 
 /* A lobe of GGX about a normal. */
 typedef struct lobe {
@@ -138,7 +138,7 @@ static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, c
     const e3d_light *light = &frame->lights[n];
     const e3d_material *material = s->piece->primitive.material;
     float l[3], attenuation;
-    if (!ref_light_reach(light, s->lit_position, 1, l, &attenuation))
+    if (e3d_is_area_light(light->kind) || !ref_light_reach(light, s->lit_position, 1, l, &attenuation))
         return;
     float nl = ref_dot3(at->base.normal, l);
     if (!(nl > 0.0f))
@@ -172,6 +172,76 @@ static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, c
     }
     if (has_sheen(material)) {
         float fuzz = reflect_fuzz(at, &h, nl) * e;
+        for (int c = 0; c < 3; c++)
+            out->fuzz[c] = out->fuzz[c] + light->color[c] * fuzz;
+    }
+}
+
+/* ---- area lights (R237, R238) ---- */
+
+/* R237: the share of an area light that a lobe reflects, before F. */
+static float shine_of(const ref_area *turned, const ref_area_frame *axes, const lobe *lobe)
+{
+    return ref_area_shine(turned, axes, lobe->roughness) * E3D_OVER_2PI;
+}
+
+/* R237, with R138's normal if the lobe is anisotropic. */
+static float shine_of_base(const e3d_light *light, const ref_surface *s, const sample *at, const ref_area_frame *axes,
+                           const ref_area_lit *lit)
+{
+    ref_area_frame bent;
+    ref_area area;
+    float normal[3];
+    if (!is_anisotropic(s))
+        return shine_of(&lit->turned, axes, &at->base);
+    ref_bend_normal(&s->physical.stretch, at->base.normal, at->view, at->base.roughness, normal);
+    ref_find_area_frame(normal, at->view, &bent);
+    ref_area_reach(light, s->lit_position, &area);
+    ref_area_turn(&bent, &area);
+    return shine_of(&area, &bent, &at->base);
+}
+
+/* R238 */
+static void add_area_to_coat(const e3d_light *light, const ref_surface *s, const sample *at, const ref_area_lit *lit, sums *out)
+{
+    ref_area_frame axes;
+    ref_area area;
+    float a = ref_albedo(E3D_DFG_A, at->coat.roughness, at->coat.nv), b = ref_albedo(E3D_DFG_B, at->coat.roughness, at->coat.nv);
+    ref_find_area_frame(at->coat.normal, at->view, &axes);
+    ref_area_reach(light, s->lit_position, &area);
+    ref_area_turn(&axes, &area);
+    float coat = (shine_of(&area, &axes, &at->coat) * (a + b)) * lit->share;
+    for (int c = 0; c < 3; c++)
+        out->coat[c] = out->coat[c] + light->color[c] * coat;
+}
+
+static void add_area_light(const e3d_frame *frame, int32_t n, const ref_surface *s, const sample *at, const ref_area_frame *axes,
+                           sums *out)
+{
+    const e3d_light *light = &frame->lights[n];
+    const e3d_material *material = s->piece->primitive.material;
+    float a = ref_albedo(E3D_DFG_A, at->base.roughness, at->base.nv), b = ref_albedo(E3D_DFG_B, at->base.roughness, at->base.nv);
+    ref_area_lit lit;
+    half_vector h;
+    if (!ref_area_light(frame, n, s, axes, &lit))
+        return;
+    for (int c = 0; c < 3; c++)
+        h.h[c] = lit.l[c] + at->view[c];
+    h.square = ref_dot3(h.h, h.h);
+    float w5 = fifth_power(ref_max(1.0f - sqrtf(h.square) * 0.5f, 0.0f)), top = at->top + (at->specular - at->top) * w5;
+    if (is_iridescent(s))
+        top = top + (at->film_top - top) * s->physical.iridescence;
+    float keep = (1.0f - top) * lit.e, shine = shine_of_base(light, s, at, axes, &lit) * lit.share;
+    for (int c = 0; c < 3; c++) {
+        float albedo = at->f0[c] * (a + b) + (at->f90 - at->f0[c]) * b;
+        if (is_iridescent(s))
+            albedo = albedo + (at->film[c] * (a + b) - albedo) * s->physical.iridescence;
+        out->direct[c] = out->direct[c] + light->color[c] * (at->diffuse[c] * keep + shine * albedo);
+    }
+    if (material->physical.clearcoat != 0.0f)
+        add_area_to_coat(light, s, at, &lit, out);
+    if (has_sheen(material)) {
+        float fuzz = reflect_fuzz(at, &h, ref_dot3(at->base.normal, lit.l)) * lit.e;
         for (int c = 0; c < 3; c++)
             out->fuzz[c] = out->fuzz[c] + light->color[c] * fuzz;
     }
@@ -307,6 +377,11 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
     sample at = find_sample(frame, surface);
     sums lights = {.direct = {0.0f}};
     float irradiance[3], indirect[3], through[3];
+    ref_area_frame axes;
+    ref_find_area_frame(surface->world_normal, at.view, &axes);
+    for (int32_t n = 0; n < frame->light_count; n++)
+        if (e3d_is_area_light(frame->lights[n].kind))
+            add_area_light(frame, n, surface, &at, &axes, &lights);
     for (int32_t n = 0; n < frame->light_count; n++)
         add_light(frame, n, surface, &at, &lights);
     ref_irradiance(frame, surface->world_normal, irradiance);

@@ -141,6 +141,8 @@ void ref_iridescence(float cosine, float ior, float thickness, const float f0[3]
 void ref_iridescence_f0(float cosine, const float film[3], float out[3]);
 
 /* anisotropy.c */
+/* Finds any direction along the surface, if nothing defines one. */
+void ref_any_direction(const float n[3], float out[3]);
 /* R136; texel: NULL if there is no texture. */
 void ref_find_stretch(const e3d_physical *material, const float texel[4], float unit, const ref_surface *s, ref_stretch *out);
 /* R137 */

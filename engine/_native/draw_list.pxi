@@ -430,7 +430,7 @@ cdef class NativeDrawList:
     def add_light(self, int kind, color, *, float range, int falloff, cone):
         """Add a light, which is then moved and turned to where it is.
 
-        ``color`` is times the intensity: lux of lights without a position, candela of others.
+        ``color`` is times the intensity: lux of lights without a position, candela of points, nits of areas.
         """
         self.lights = <e3d_light *>grown(self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light))
         cdef e3d_light *light = &self.lights[self.light_count]
@@ -454,6 +454,13 @@ cdef class NativeDrawList:
     def move_light(self, int number, position):
         """Set where a light is."""
         copy_vector(self.light_at(number).position, position, 3)
+
+    def extend_light(self, int number, vectors, float radius):
+        """Set the extent of an area light: two vectors of the world, and the radius of a tube."""
+        cdef e3d_light *light = self.light_at(number)
+        for k in range(2):
+            copy_vector(light.extent[k], vectors[k], 3)
+        light.radius = radius
 
     def clear_shadows(self):
         """Let no light have a shadow."""

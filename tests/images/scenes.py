@@ -3,6 +3,7 @@
 from images import (  # noqa: F401
     scenes_alpha,
     scenes_ambient,
+    scenes_area_lights,
     scenes_exact_shadows,
     scenes_facets,
     scenes_filters,

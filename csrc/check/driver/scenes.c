@@ -285,13 +285,27 @@ static e3d_status add_materials(scene *s, random_stream *r)
     return E3D_OK;
 }
 
+#define ONE_MORE(...) +1
+enum { LIGHT_KINDS = 0 E3D_EACH_LIGHT_KIND(ONE_MORE) };
+
+/* Gives an area light its size: any, often none or very much along either side. */
+static void extend_light(e3d_light *light, random_stream *r)
+{
+    float sizes[3];
+    for (int k = 0; k < 3; k++)
+        sizes[k] = random_once_in(r, 8) ? 0.0f : ldexpf(random_float(r, 0.5f, 1.0f), random_below(r, random_once_in(r, 8) ? 60 : 6) - 4);
+    for (int k = 0; k < 6; k++)
+        light->extent[k / 3][k % 3] = random_float(r, -1.0f, 1.0f) * sizes[k / 3];
+    light->radius = sizes[2];
+}
+
 static void add_lights(scene *s, random_stream *r)
 {
     s->frame.lights = s->lights;
     s->frame.light_count = random_below(r, (random_once_in(r, 3) ? SCENE_MAX_LIGHTS : 4) + 1);
     for (int32_t i = 0; i < s->frame.light_count; i++) {
         e3d_light *light = &s->lights[i];
-        light->kind = (e3d_light_kind)random_below(r, 3);
+        light->kind = (e3d_light_kind)random_below(r, LIGHT_KINDS);
         light->falloff = (e3d_falloff)random_below(r, 3);
         int endless = light->falloff != E3D_FALLOFF_WINDOW && random_once_in(r, 2);
         light->range = endless ? INFINITY : random_float(r, 0.1f, 8.0f);
@@ -303,6 +317,8 @@ static void add_lights(scene *s, random_stream *r)
         normalize(light->to_light);
         light->cone[0] = random_float(r, 0.0f, 0.95f);
         light->cone[1] = 1.0f / random_float(r, 0.001f, 1.0f);
+        if (e3d_is_area_light(light->kind))
+            extend_light(light, r);
     }
 }
 

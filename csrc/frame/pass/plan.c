@@ -75,7 +75,8 @@ static asked_items asked_mode(const e3d_frame *f)
     case E3D_MODE_LIT:
         return ASKED(LIT) | asked_if(has_local_light(f), E3D_ASKED_LOCAL_LIGHT) | asked_if(e3d_has_shadows(f), E3D_ASKED_SHADOWS) |
                asked_if(e3d_has_exact_shadows(f), E3D_ASKED_EXACT_SHADOWS) |
-               asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS) | asked_if(has_mirrors(f), E3D_ASKED_MIRRORS);
+               asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS) |
+               asked_if(e3d_has_area_lights(f), E3D_ASKED_AREA_LIGHTS) | asked_if(has_mirrors(f), E3D_ASKED_MIRRORS);
     case E3D_MODE_UNLIT: return ASKED(UNLIT);
     case E3D_MODE_DEPTH: return ASKED(DEPTH_MODE);
     case E3D_MODE_NORMAL: return ASKED(NORMAL_MODE);
@@ -182,8 +183,9 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
      .unless_planned = PLAN(SLOTS)},
     {E3D_PLAN_REFLECTS, .asked = ASKED(LIT) | ASKED(MIRRORS), .planned = PLAN(COLORS)},
     {E3D_PLAN_FINDS_EXACT_SHADOWS, .asked = ASKED(EXACT_SHADOWS), .planned = PLAN(COLORS)},
+    {E3D_PLAN_ADDS_AREA_LIGHTS, .asked = ASKED(LIT) | ASKED(AREA_LIGHTS), .planned = PLAN(COLORS)},
     {E3D_PLAN_PAINTS, .asked = ASKED(LIT), .planned = PLAN(COLORS), .unless_asked = ASKED(MANY_LIGHTS),
-     .unless_planned = PLAN(OUTPUTS) | PLAN(FINDS_EXACT_SHADOWS)},
+     .unless_planned = PLAN(OUTPUTS) | PLAN(FINDS_EXACT_SHADOWS) | PLAN(ADDS_AREA_LIGHTS)},
     {E3D_PLAN_PAINTS, .asked = ASKED(UNLIT), .planned = PLAN(COLORS), .unless_planned = PLAN(OUTPUTS)},
     {E3D_PLAN_ROUNDS, .asked = ASKED(OCCLUSION), .planned = PLAN(FACES),
      .unless_asked = ASKED(OVERDRAW_MODE) | ASKED(OTHER_FRUSTUM) | ASKED(HUGE), .unless_planned = PLAN(SLOTS)},

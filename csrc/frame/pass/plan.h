@@ -28,6 +28,7 @@
     X(LOCAL_LIGHT, "light that depends on the position: point lights or highlights") \
     X(MAPPED_NORMALS, "a texture of normals") \
     X(MANY_LIGHTS, "more than 4 lights") \
+    X(AREA_LIGHTS, "lights with a surface: rectangles, discs, tubes") \
     X(WIREFRAME, "a wireframe, with or without the faces") \
     X(WIRE_ONLY, "a wireframe without the faces") \
     X(HIDDEN_LINES, "that faces hide the edges behind them in a wireframe without them") \
@@ -80,6 +81,7 @@
     X(LISTS, "tiles may list visible samples by record instead of by row") \
     X(REFLECTS, "mirrors show their pictures") \
     X(FINDS_EXACT_SHADOWS, "exact shadows are found on visible samples, light by light") \
+    X(ADDS_AREA_LIGHTS, "the light of rectangles, discs and tubes is found before that of other lights") \
     X(PAINTS, "one kernel takes samples from the surface to the encoded pixel") \
     X(ROUNDS, "the frame may be drawn in rounds that test against the ones before") \
     X(FINISHES, "tiles may be finished in the first of two rounds") \
@@ -130,6 +132,14 @@ static inline int e3d_culls_parts(const e3d_frame *frame)
 
 /* Whether colours are those of surfaces, lit or unlit. */
 static inline int e3d_has_light_or_color(const e3d_frame *frame) { return frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT; }
+
+static inline int e3d_has_area_lights(const e3d_frame *frame)
+{
+    for (int32_t n = 0; n < frame->light_count; n++)
+        if (e3d_is_area_light(frame->lights[n].kind))
+            return 1;
+    return 0;
+}
 
 static inline int e3d_shows_environment(const e3d_frame *frame)
 {

@@ -87,6 +87,7 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     lighting->environment = frame->environment.environment ? &frame->environment : NULL;
     lighting->ambient_terms = frame->ambient_light.is_given ? frame->ambient_light.terms : NULL;
     lighting->has_visibility = frame->ambient_visibility != NULL;
+    lighting->has_area_lights = e3d_has_area_lights(frame);
     lighting->shadows = NULL;
     view->unshadowed = *lighting;
     if (e3d_has_shadows(frame))

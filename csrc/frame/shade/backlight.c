@@ -59,6 +59,8 @@ void e3d_find_backlight(const e3d_steps *s)
     }
     if (is_exact)
         e3d_hide_lights(s);
+    if (e3d_plans(pass, E3D_PLAN_ADDS_AREA_LIGHTS))
+        pass->kernels->area_light(batch, &lighting, 0.0f);
     pass->kernels->light(batch, &lighting, 0.0f);
     if (is_body)
         memcpy(batch->position, position, sizeof position);

@@ -57,13 +57,19 @@ static void put_outputs(const e3d_steps *s) { e3d_outputs_batch(s->in->store, s-
 
 static void find_visibility(const e3d_steps *s) { e3d_find_visibility(s->pass, s->out); }
 
+static float shininess_of(const e3d_material *m) { return e3d_adds(m->specular) ? m->shininess : 0.0f; }
+
+static void add_area_lights(const e3d_steps *s)
+{
+    s->pass->kernels->area_light(batch_of(s), e3d_lighting_of(s->pass->view, s->bucket->unshadowed), shininess_of(s->bucket->material));
+}
+
 static void light(const e3d_steps *s)
 {
     const e3d_prepared *pass = s->pass;
     const e3d_material *m = s->bucket->material;
-    int shiny = e3d_adds(m->specular);
-    pass->kernels->light(batch_of(s), e3d_lighting_of(pass->view, s->bucket->unshadowed), shiny ? m->shininess : 0.0f);
-    pass->kernels->combine(batch_of(s), shiny ? m->specular : NULL, m->emissive, pass->view->lighting.exposure);
+    pass->kernels->light(batch_of(s), e3d_lighting_of(pass->view, s->bucket->unshadowed), shininess_of(m));
+    pass->kernels->combine(batch_of(s), e3d_adds(m->specular) ? m->specular : NULL, m->emissive, pass->view->lighting.exposure);
 }
 
 static void light_physical(const e3d_steps *s) { e3d_light_physical(s->pass, s->bucket, s->out->memory); }
@@ -120,7 +126,7 @@ static void paint(const e3d_steps *s)
         .by_vertex = bucket->by_vertex,
         .by_instance = bucket->by_instance,
         .lighting = bucket->lit ? e3d_lighting_of(pass->view, bucket->unshadowed) : NULL,
-        .shininess = shiny ? m->shininess : 0.0f,
+        .shininess = shininess_of(m),
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = e3d_plans(pass, E3D_PLAN_ENCODES_SRGB),
@@ -166,6 +172,7 @@ static void add_radiance_steps(e3d_steps *s)
     add(s, bucket->translucent, e3d_find_backlight);
     add(s, e3d_receives_exact_shadows(s->pass, bucket), e3d_hide_lights);
     add(s, bucket->mirrors, e3d_find_mirrors);
+    add(s, bucket->lit && !bucket->material->is_physical && e3d_plans(s->pass, E3D_PLAN_ADDS_AREA_LIGHTS), add_area_lights);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);
     add(s, fog_of(s->pass, bucket) != NULL, add_fog);

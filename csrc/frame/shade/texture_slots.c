@@ -369,5 +369,7 @@ void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_
     const e3d_brdf brdf = brdf_of(pass, bucket, memory);
     if (bucket->transmits && (brdf.absorbs || bucket->bends))
         find_depths(pass, memory, 1, memory->textures.batch.depth);
+    if (e3d_plans(pass, E3D_PLAN_ADDS_AREA_LIGHTS))
+        pass->kernels->area_physical(&memory->batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->textures.batch);
     pass->kernels->physical(&memory->batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->textures.batch);
 }

@@ -32,6 +32,8 @@
 #include "kernels/generic/shade/texture_slots.inl"
 #include "kernels/generic/shade/physical.inl"
 #include "kernels/generic/shade/mirror.inl"
+#include "kernels/generic/shade/area_light.inl"
+#include "kernels/generic/shade/area_physical.inl"
 #include "kernels/generic/shade/bend.inl"
 #include "kernels/generic/behind.inl"
 #include "kernels/generic/tone.inl"

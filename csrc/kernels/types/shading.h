@@ -141,6 +141,7 @@ typedef struct e3d_lighting {
     const e3d_shadow_map *shadows; /* NULL: no light has a shadow, or the lit surfaces receive none */
     const float (*ambient_terms)[3];          /* R130, or NULL */
     int has_visibility;                       /* the batch's */
+    int has_area_lights;                      /* not 0: other kernels have begun the sums with their light */
 } e3d_lighting;
 
 /* How the kernel `paint` turns the samples of a batch into pixels, or finds their colours. */

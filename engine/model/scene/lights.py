@@ -2,8 +2,9 @@
 
 A light's colour (a display value, unless it is marked as `linear` light) is multiplied by its
 intensity. Directional lights shine along their node's rotated ``direction``, point lights from
-their node's origin, spot lights from there along its -Z. docs/exactness, sections 9 and 12, has the
-formulas; docs/conventions.md has the units of intensities.
+their node's origin, spot lights from there along its -Z, area lights from a surface around it.
+docs/exactness, sections 9, 12 and 28, has the formulas; docs/conventions.md has the units of
+intensities.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from ...base.validation import (
     frozen_floats,
     not_negative,
     one_of,
+    positive,
 )
 from ...choices import ColorLike, Falloff, LightShadow, ShadowTaps
 from ...errors import InvalidArgumentError
@@ -311,11 +313,257 @@ class SpotLight(DirectLight):
         )
 
 
+class AreaLight(DirectLight):
+    """Base of lights that shine from a surface, equally bright from all sides.
+
+    Their sizes are in world units, whatever their nodes' scale.
+    """
+
+    range: NumberAttribute = CheckedAttribute(_range)
+
+    @property
+    def area(self) -> float:
+        """The area that shines, in square world units."""
+        raise NotImplementedError
+
+    @property
+    def power(self) -> float:
+        """The luminous flux in lumens, with metres as world units; assigning sets ``intensity``."""
+        return math.pi * self.area * self.intensity
+
+    @power.setter
+    def power(self, value: float) -> None:
+        self.intensity = not_negative(value, "power") / (math.pi * self.area)
+
+    @property
+    def shadow_softness(self) -> float:  # type: ignore[override]
+        """The radius, in world units, of the disc that stands for the light in shadow maps."""
+        raise NotImplementedError
+
+    def halves(self) -> tuple[float, float, float]:
+        """Return half the extent along the node's X and its Y, and the radius around X."""
+        raise NotImplementedError
+
+
+class RectangleLight(AreaLight):
+    """A rectangle that shines to one side, along the -Z of its node: a window, a panel, a screen.
+
+    As three.js's RectAreaLight and OpenUSD's RectLight. The light itself is not seen: add a plane
+    of a material that emits ``color * intensity``. Surfaces show its reflection, stretched at
+    grazing angles, by linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016).
+
+    Parameters
+    ----------
+    color : str or sequence of 3 numbers
+    intensity : float
+        In nits (candela per square metre): how bright its surface looks, whatever its size and
+        distance. A white matt surface that touches it shows ``color * intensity``. `power` is the
+        same in lumens.
+    width, height : float
+        World units, along the X and the Y of its node, whatever the node's scale.
+    range : float
+        World units; beyond this distance from the middle the light is exactly 0, and before it
+        light fades by ``1 - (d / range)**4``. May be infinite.
+    shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
+        As for `DirectionalLight`. The light has one map, seen from its middle, and shadows are as
+        soft as a disc of its area makes them. More than 76 degrees off the axis nothing is
+        shadowed. ``"exact"`` shadows are those of a point light in the middle.
+
+    Attributes
+    ----------
+    version : int
+        As for `DirectionalLight`.
+    shadow_softness : float
+        The radius of that disc.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    width: NumberAttribute = CheckedAttribute(positive)
+    height: NumberAttribute = CheckedAttribute(positive)
+
+    def __init__(
+        self,
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        width: float = 1.0,
+        height: float = 1.0,
+        range: float = math.inf,
+        *,
+        shadow: LightShadow = "none",
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
+    ) -> None:
+        self._keep(locals())
+        self.check()
+
+    @property
+    def area(self) -> float:
+        """The area that shines, in square world units."""
+        return self.width * self.height
+
+    @property
+    def shadow_softness(self) -> float:  # type: ignore[override]
+        """The radius, in world units, of the disc that stands for the light in shadow maps."""
+        return math.sqrt(self.area / math.pi)
+
+    def halves(self) -> tuple[float, float, float]:
+        """Return half the extent along the node's X and its Y, and the radius around X."""
+        return self.width / 2, self.height / 2, 0.0
+
+    def __repr__(self) -> str:
+        return (
+            f"RectangleLight(color={self.color}, intensity={self.intensity:g}, "
+            f"width={self.width:g}, height={self.height:g})"
+        )
+
+
+class DiscLight(AreaLight):
+    """A disc that shines to one side, along the -Z of its node, as OpenUSD's DiskLight.
+
+    Parameters
+    ----------
+    color : str or sequence of 3 numbers
+    intensity : float
+        As for `RectangleLight`.
+    radius : float
+        World units.
+    range, shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
+        As for `RectangleLight`.
+
+    Attributes
+    ----------
+    version : int
+        As for `DirectionalLight`.
+    shadow_softness : float
+        The disc's radius.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    radius: NumberAttribute = CheckedAttribute(positive)
+
+    def __init__(
+        self,
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        radius: float = 0.5,
+        range: float = math.inf,
+        *,
+        shadow: LightShadow = "none",
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
+    ) -> None:
+        self._keep(locals())
+        self.check()
+
+    @property
+    def area(self) -> float:
+        """The area that shines, in square world units."""
+        return math.pi * self.radius * self.radius
+
+    @property
+    def shadow_softness(self) -> float:  # type: ignore[override]
+        """The radius, in world units, of the disc that stands for the light in shadow maps."""
+        return self.radius
+
+    def halves(self) -> tuple[float, float, float]:
+        """Return half the extent along the node's X and its Y, and the radius around X."""
+        return self.radius, self.radius, 0.0
+
+    def __repr__(self) -> str:
+        return (
+            f"DiscLight(color={self.color}, intensity={self.intensity:g}, radius={self.radius:g})"
+        )
+
+
+class TubeLight(AreaLight):
+    """A tube that shines all around, along the X of its node, as OpenUSD's CylinderLight.
+
+    Its ends do not shine.
+
+    Parameters
+    ----------
+    color : str or sequence of 3 numbers
+    intensity : float
+        As for `RectangleLight`.
+    length, radius : float
+        World units.
+    range, shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
+        As for `RectangleLight`, but the light has six maps, the faces of a cube around its middle.
+
+    Attributes
+    ----------
+    version : int
+        As for `DirectionalLight`.
+    shadow_softness : float
+        The radius of a disc as large as the tube looks from beside it.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    length: NumberAttribute = CheckedAttribute(positive)
+    radius: NumberAttribute = CheckedAttribute(positive)
+
+    def __init__(
+        self,
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        length: float = 1.0,
+        radius: float = 0.05,
+        range: float = math.inf,
+        *,
+        shadow: LightShadow = "none",
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
+    ) -> None:
+        self._keep(locals())
+        self.check()
+
+    @property
+    def area(self) -> float:
+        """The area that shines, in square world units."""
+        return 2.0 * math.pi * self.radius * self.length
+
+    @property
+    def shadow_softness(self) -> float:  # type: ignore[override]
+        """The radius, in world units, of the disc that stands for the light in shadow maps."""
+        return math.sqrt(2.0 * self.radius * self.length / math.pi)
+
+    def halves(self) -> tuple[float, float, float]:
+        """Return half the extent along the node's X and its Y, and the radius around X."""
+        return self.length / 2, 0.0, self.radius
+
+    def __repr__(self) -> str:
+        return (
+            f"TubeLight(color={self.color}, intensity={self.intensity:g}, "
+            f"length={self.length:g}, radius={self.radius:g})"
+        )
+
+
 #: Lights by their kinds in the core and in files.
 DIRECT_LIGHTS: dict[str, type[DirectLight]] = {
     "directional": DirectionalLight,
     "point": PointLight,
     "spot": SpotLight,
+    "rectangle": RectangleLight,
+    "disc": DiscLight,
+    "tube": TubeLight,
 }
 LIGHTS = (*DIRECT_LIGHTS.values(), *AMBIENT_LIGHTS)
-Light: TypeAlias = DirectionalLight | PointLight | SpotLight | HemisphereLight | LightProbe
+Light: TypeAlias = DirectLight | HemisphereLight | LightProbe

@@ -16,11 +16,11 @@ import numpy as np
 
 from ..._native.rasterizer import FALLOFFS, LIGHT_KINDS, LIGHT_TRAITS, NativeDrawList
 from ..._native.scene_graph import SHOWN
-from ...base.linalg.single import normalize
+from ...base.linalg.single import cross, normalize
 from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
 from ...model.scene.ambient_lights import AMBIENT_LIGHTS, AmbientLight
-from ...model.scene.lights import DirectionalLight, DirectLight
+from ...model.scene.lights import AreaLight, DirectionalLight, DirectLight
 from ...model.scene.staged_data import AnyData
 from .ambient_terms import ambient_terms
 
@@ -180,7 +180,22 @@ class LightList:
         elif isinstance(light, DirectionalLight):
             x, y, z = light.direction.tolist()
             towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
+        if isinstance(light, AreaLight):
+            self._native.extend_light(number, *_extent(light, pose))
         if towards is not None:
             towards = normalize(towards)
             self._native.turn_light(number, towards)
         self._at[number] = light, (towards, position)
+
+
+def _extent(light: AreaLight, pose: list[float]) -> tuple[list[tuple[float, ...]], float]:
+    """Return the vectors of an area light's extent in the world, and its radius.
+
+    The first lies along the pose's X, the second beside it, so that both are across its Z.
+    """
+    half, other_half, radius = light.halves()
+    z = normalize((pose[2], pose[6], pose[10]))
+    y = normalize(cross(z, (pose[0], pose[4], pose[8])))
+    x = cross(y, z)
+    vectors = [tuple(half * part for part in x), tuple(other_half * part for part in y)]
+    return vectors, radius

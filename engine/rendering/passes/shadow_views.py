@@ -10,6 +10,7 @@ rounded values. Sources for cascades: Zhang et al. 2006 (parallel-split shadow m
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...base import linalg
 from ...base.linalg.single import cross, dot, length, normalize
-from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
+from ...model.scene.lights import AreaLight, DirectionalLight, PointLight, SpotLight
 from ...model.scene.shadow_casting import (
     LEAST_MAP,
     MOST_MAP,
@@ -32,6 +33,7 @@ from .._view import View
 _RATIO = 4.0  # each cascade reaches this many times as far as the one before
 _PLAY = 1.0 / 8.0  # of a map's side: the step by which it follows the camera
 _WIDEST = 10.0  # tangent of the widest angle of a spot light's map
+_WIDEST_AHEAD = 4.0  # the same of an area light's, which gets 6 % of its light to what lies beyond
 _NEAREST = 2.0**-12  # of the farthest: nearer objects cast no shadow of a point or spot light
 #: Right, down and ahead.
 Axes = Sequence[Sequence[float]]
@@ -336,11 +338,11 @@ def _cascades(
     return ShadowViews(maps, places, axes, depth, margin, size)
 
 
-# Point and spot lights
+# Lights with a position
 
 
 def _between(
-    light: PointLight | SpotLight, nearest: float, farthest: float
+    light: PointLight | SpotLight | AreaLight, nearest: float, farthest: float
 ) -> tuple[float, float] | None:
     """Return the depth range that a map covers; None if it is empty."""
     farthest = min(_rounded_up(farthest, 4), light.range) if farthest > 0.0 else 0.0
@@ -371,7 +373,7 @@ def _looks_from(
 
 
 def _local_views(
-    light: PointLight | SpotLight,
+    light: PointLight | SpotLight | AreaLight,
     position: Sequence[float],
     all_axes: Sequence[Axes],
     tangent: float,
@@ -391,13 +393,27 @@ def _local_views(
     return ShadowViews(maps, places, all_axes[0], depth, margin, size)
 
 
+def _tangent(light: SpotLight | AreaLight, seen: list[list[float]]) -> float:
+    """Return the tangent of the angle that a map covers: a cone, or the box whose corners are seen.
+
+    Corners are given along the axes.
+    """
+    if isinstance(light, SpotLight):
+        angle = light.outer_cone_angle
+        cosine, sine = float(linalg.cos(angle)), float(linalg.sin(angle))
+        return sine / cosine if sine < _WIDEST * cosine else _WIDEST
+    if any(max(abs(x), abs(y)) >= _WIDEST_AHEAD * z for x, y, z in seen):
+        return _WIDEST_AHEAD
+    return min(_rounded_up(max(max(abs(x), abs(y)) / z for x, y, z in seen), 4), _WIDEST_AHEAD)
+
+
 def _ahead(
-    light: SpotLight,
+    light: SpotLight | AreaLight,
     pose: tuple[Sequence[float], Sequence[float]],
     bounds: NDArray[np.float64],
     sight: None,
 ) -> ShadowViews | None:
-    """Return the map of a spot light, which covers its cone; None if nothing is in front of it."""
+    """Return the map of a light that shines ahead; None if nothing is in front of it."""
     to_light, position = pose
     axes = _axes_along(tuple(-part for part in to_light))
     here = dot(axes[2], position)
@@ -405,19 +421,19 @@ def _ahead(
     between = _between(light, nearest, farthest)
     if between is None:
         return None
-    angle = light.outer_cone_angle
-    cosine, sine = float(linalg.cos(angle)), float(linalg.sin(angle))
-    tangent = sine / cosine if sine < _WIDEST * cosine else _WIDEST
-    return _local_views(light, position, [axes], tangent, between)
+    corners = itertools.product(*(bounds[:, k].tolist() for k in range(3)))
+    away = ([c - p for c, p in zip(corner, position, strict=True)] for corner in corners)
+    seen = [[dot(axis, one) for axis in axes] for one in away]
+    return _local_views(light, position, [axes], _tangent(light, seen), between)
 
 
 def _cube(
-    light: PointLight,
+    light: PointLight | AreaLight,
     pose: tuple[None, Sequence[float]],
     bounds: NDArray[np.float64],
     sight: None,
 ) -> ShadowViews | None:
-    """Return the six maps around a point light; None if nothing is there."""
+    """Return the six maps around a light; None if nothing is there."""
     position = pose[1]
     low, high = np.asarray(position) - bounds[0], bounds[1] - np.asarray(position)
     farthest = float(max(low.max(), high.max()))

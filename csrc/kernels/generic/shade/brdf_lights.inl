@@ -227,7 +227,7 @@ static ALWAYS_INLINE void around_find(const e3d_lighting *lighting, const enviro
 {
     vf32 normal[3];
     for (int s = 0; s < count; s++)
-        out[s].place = albedo_find(at[s].base.roughness, at[s].base.nv);
+        out[s].place = albedo_find(at[s].base.roughness, at[s].base.nv, E3D_DFG_SIZE);
     for (int s = 0; s < count; s++) {
         load_three(batch->normal, i + s * V_LANES, normal);
         around_irradiance(lighting, plan, normal, out[s].irradiance);

@@ -199,9 +199,15 @@ static inline vf32 light_distance2(const e3d_lighting *lighting, int n, const li
     return dot_three(d, d);
 }
 
-/* Lists those of the lights first .. end - 1 that may reach the box (NULL: all). The others would add nothing. With 256
- * lights, shading then takes a ninth of the time. */
-static inline int light_choose(const e3d_lighting *lighting, int first, int end, const light_box *box,
+/* Whether a light is one of the area lights, or of the others, as is wanted. */
+static inline int light_is_wanted(const e3d_lighting *lighting, int n, int areas)
+{
+    return !lighting->has_area_lights || e3d_is_area_light(lighting->lights[n].kind) == areas;
+}
+
+/* Lists those of the area lights (areas: 0: the others) first .. end - 1 that may reach the box (NULL: all). The rest would add
+ * nothing. With 256 lights, shading then takes a ninth of the time. */
+static inline int light_choose(const e3d_lighting *lighting, int first, int end, const light_box *box, int areas,
                                int32_t *chosen)
 {
     int count = 0;
@@ -211,7 +217,7 @@ static inline int light_choose(const e3d_lighting *lighting, int first, int end,
             bits = v_bits(v_mnot(v_ge(light_distance2(lighting, n, box), v_loadf(lighting->reach[3] + n))));
         for (; bits; bits &= bits - 1) {
             chosen[count] = n + __builtin_ctz(bits);
-            count += chosen[count] < end;
+            count += chosen[count] < end && light_is_wanted(lighting, chosen[count], areas);
         }
     }
     return count;
@@ -300,6 +306,10 @@ static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighti
             lit.energy[k] = v_loadf(batch->energy[k] + i);
             lit.shine[k] = v_loadf(batch->shine[k] + i);
         }
+        for (int k = 0; k < 3 && !first && lighting->has_area_lights; k++) { /* R239 */
+            lit.energy[k] = v_add(lit.energy[k], v_loadf(batch->energy[k] + i));
+            lit.shine[k] = v_loadf(batch->shine[k] + i);
+        }
         for (int n = 0; n < count; n++)
             light_one(lighting, chosen[n], batch, i, varied, shininess, &lit);
         for (int k = 0; k < 3; k++) {
@@ -318,7 +328,7 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
     shadow_suns(lighting, batch);
     do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
-        int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
+        int count = light_choose(lighting, first, end, boxed ? &box : NULL, 0, chosen);
         if (light_varies(lighting))
             light_add(batch, lighting, first, chosen, count, LIGHT_VARIED, shininess);
         else

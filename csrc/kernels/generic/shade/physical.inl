@@ -21,7 +21,7 @@ static ALWAYS_INLINE void brdf_sheen(const e3d_brdf *brdf, const brdf_lanes *at,
                                      vf32 color[3])
 {
     vf32 sheen[3], one = v_setf(1.0f);
-    albedo_place place = albedo_find(usable_sheen_roughness(brdf, i), at->base.nv);
+    albedo_place place = albedo_find(usable_sheen_roughness(brdf, i), at->base.nv, E3D_DFG_SIZE);
     vf32 e = albedo_of(E3D_DFG_SHEEN, &place);
     for (int k = 0; k < 3; k++)
         sheen[k] = varying_at(&brdf->sheen[k], i);
@@ -56,7 +56,7 @@ static ALWAYS_INLINE void brdf_through(const e3d_brdf *brdf, int has_coat, int h
 {
     vf32 one = v_setf(1.0f), zero = v_setf(0.0f), depth = zero, fuzz = one, coat = one;
     if (has_sheen) {
-        albedo_place place = albedo_find(usable_sheen_roughness(brdf, i), at->base.nv);
+        albedo_place place = albedo_find(usable_sheen_roughness(brdf, i), at->base.nv, E3D_DFG_SIZE);
         vf32 most = v_max(v_max(varying_at(&brdf->sheen[0], i), varying_at(&brdf->sheen[1], i)), varying_at(&brdf->sheen[2], i));
         fuzz = v_sub(one, v_mul(most, albedo_of(E3D_DFG_SHEEN, &place)));
     }
@@ -215,8 +215,8 @@ static void kernel_physical(e3d_batch *batch, const e3d_brdf *brdf, const e3d_li
     shadow_suns(lighting, batch);
     do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
-        int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
-        const chosen_lights lights = {chosen, count, first == 0, end == lighting->light_count};
+        int count = light_choose(lighting, first, end, boxed ? &box : NULL, 0, chosen);
+        const chosen_lights lights = {chosen, count, first == 0 && !lighting->has_area_lights, end == lighting->light_count};
         physical_some(batch, m, brdf, lighting, around, &lights);
         first = end;
     } while (first < lighting->light_count);

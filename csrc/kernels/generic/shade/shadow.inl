@@ -435,6 +435,13 @@ static inline void shadow_suns(const e3d_lighting *lighting, e3d_batch *batch)
         batch->sun[found] = -1;
 }
 
+/* Says that no light's shares are found yet. */
+static inline void shadow_no_suns(e3d_batch *batch)
+{
+    for (int k = 0; k < E3D_SUNS; k++)
+        batch->sun[k] = -1;
+}
+
 /* Returns the shares of light n that reach the samples of a batch, if they are found already; else NULL. */
 static ALWAYS_INLINE const float *shadow_found(const e3d_batch *batch, int n)
 {

@@ -21,6 +21,7 @@ MODULES = (
         "canvas",
         "images",
         "loaders",
+        "mujoco",
         "navigation",
         "pyrender",
         "rasterizer",

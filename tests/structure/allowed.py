@@ -16,13 +16,14 @@ LONG_SIGNATURES = (
     "model.scene.scene.add",
     "stage.render.render",
 )
-# The attributes are those that users know; in compat.pyrender, pyrender's own.
+# The attributes are those that users know; in compat, those of MuJoCo and pyrender.
 LARGE_CLASSES = (
+    "compat.mujoco.context.MjrContext",
     "compat.pyrender.viewer.Viewer",
     "model.geometry.mesh.Mesh",
 )
-# The core's public headers: Cython reads them as one list.
-FULL_FOLDERS = ("csrc/include",)
+# The core's public headers, which Cython reads as one list; and a module for each part of them.
+FULL_FOLDERS = ("csrc/include", "engine/_native")
 REPEATED_NAMES = ()
 PRIVATE_READS = ()
 REPEATED_LISTS = {

@@ -15,6 +15,7 @@
 #include "check/driver/scenes/canvas_scene.h"
 #include "check/driver/compare.h"
 #include "check/driver/scenes/graph_scene.h"
+#include "check/driver/scenes/mujoco_scene.h"
 #include "check/driver/scenes/occlusion_scene.h"
 #include "check/driver/outputs.h"
 #include "check/driver/passes.h"
@@ -51,6 +52,7 @@ static const struct {
     {"ui", compare_ui},
     {"occlusion", compare_occlusion},
     {"pyrender", compare_pyrender},
+    {"mujoco", compare_mujoco},
     {"outputs", compare_outputs},
     {"bloom", compare_bloom},
     {"behind", compare_behind},

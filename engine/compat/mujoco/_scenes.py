@@ -1,0 +1,296 @@
+"""An MjvScene, as the core reads it: geoms, lights, the camera.
+
+In: a scene that `mjv_updateScene` has filled. Out: records and numbers for `NativePicture.render`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..._native.mujoco import GEOM, LIGHT, LIGHTS
+from ...base.linalg.trigonometry import cos, tan
+from ...errors import warn
+from ._layouts import view_geoms, view_lights
+from ._model import Model
+
+_GEOM = 5  # of mjtObj
+_FLEX_TYPE = 105  # of mjtGeom
+_SPOT, _DIRECTIONAL = 0, 1  # of mjtLightType
+_AS_THEY_ARE = (
+    *("type", "dataid", "objid", "category", "matid", "segid", "size", "pos", "mat", "rgba"),
+    *("emission", "specular", "shininess", "reflectance", "texcoord"),
+)
+
+
+class SceneView:
+    """The memory of one scene, read in place.
+
+    Attributes
+    ----------
+    scene : mujoco.MjvScene
+    """
+
+    def __init__(self, scene: Any) -> None:
+        self.scene = scene
+        self._geoms = view_geoms(scene)
+        self._lights = view_lights(scene)
+
+    def geom_ids(self) -> np.ndarray:
+        """Return the objid and objtype of each geom, and (-1, -1) at the end, (N + 1, 2) int32."""
+        count = self.scene.ngeom
+        out = np.full((count + 1, 2), -1, np.int32)
+        out[:count, 0], out[:count, 1] = (
+            self._geoms["objid"][:count],
+            self._geoms["objtype"][:count],
+        )
+        return out
+
+    def segment_ids(self) -> np.ndarray:
+        """Return the segid of each geom, (N,) int32."""
+        return self._geoms["segid"][: self.scene.ngeom]
+
+    def geoms(self, model: Model) -> np.ndarray:
+        """Return the geoms as the core reads them."""
+        from_ = self._geoms[: self.scene.ngeom]
+        out = np.empty(len(from_), GEOM)
+        for name in _AS_THEY_ARE:
+            out[name] = from_[name]
+        names = from_.dtype.names or ()
+        out["castshadow"] = from_["castshadow"] if "castshadow" in names else 1
+        out["rbound"] = np.where(from_["objtype"] == _GEOM, from_["modelrbound"], np.float32(-1))
+        material = np.clip(from_["matid"], 0, max(len(model.texids) - 1, 0))
+        by_material = (from_["matid"] >= 0) & (len(model.texids) > 0)
+        if "texid" in names:
+            by_material &= from_["texid"] < 0
+            for name in ("texid", "texuniform", "texrepeat"):
+                out[name] = from_[name]
+        else:
+            out["texid"], out["texuniform"], out["texrepeat"] = -1, 0, 0
+        if by_material.any():
+            chosen = material[by_material]
+            out["texid"][by_material] = model.texids[chosen]
+            out["texuniform"][by_material] = model.texuniforms[chosen]
+            out["texrepeat"][by_material] = model.texrepeats[chosen]
+        return out
+
+    def warn_of_labels(self) -> None:
+        """Warn if a geom has a label, since text is not drawn."""
+        if self._geoms["label"][: self.scene.ngeom].any():
+            warn("labels of geoms are not drawn")
+
+    def lights(self, model: Model, *, none: bool = False) -> tuple[np.ndarray, float]:
+        """Return the lights as the core reads them, and the ambient light of scenes without any."""
+        if none:
+            return np.zeros(0, LIGHT), 0.0
+        from_ = self._lights[: min(self.scene.nlight, LIGHTS)]
+        every = self._lights[: self.scene.nlight]
+        supported = (every["type"] == _DIRECTIONAL) | (every["type"] == _SPOT)
+        if not supported.all():
+            warn(
+                "lights of the types point and image are not drawn, as in MuJoCo's classic renderer"
+            )
+        ambient = 0.0 if supported.any() else 0.3
+        from_ = from_[supported[: len(from_)]]
+        out = np.zeros(len(from_), LIGHT)
+        for name in (
+            "pos",
+            "dir",
+            "attenuation",
+            "ambient",
+            "diffuse",
+            "specular",
+            "exponent",
+            "castshadow",
+        ):
+            out[name] = from_[name]
+        out["is_directional"] = from_["type"] == _DIRECTIONAL
+        for k, light in enumerate(from_):
+            if light["type"] == _DIRECTIONAL:
+                out["cutoff_cosine"][k], out["shadow_reach"][k] = -2.0, model.shadow_clip
+            else:
+                cutoff = float(light["cutoff"])
+                field = min(2 * cutoff * model.shadow_scale, 160.0)
+                out["cutoff_cosine"][k] = cos(math.radians(cutoff)) if cutoff < 180 else -2.0
+                out["shadow_reach"][k] = max(tan(math.radians(field / 2)), 1e-9)
+        return out, ambient
+
+    def set_moving_shapes(self, model: Model) -> None:
+        """Give the core the skins and flexes as they are now."""
+        scene = self.scene
+        for number in range(scene.nskin):
+            faces, uvs = model.skins[number]
+            begin = int(scene.skinvertadr[number])
+            end = begin + int(scene.skinvertnum[number])
+            positions = np.array(scene.skinvert.reshape(-1, 3)[begin:end], np.float32)
+            normals = scene.skinnormal.reshape(-1, 3)[begin:end].astype(np.float32)[faces]
+            edges = np.full(len(faces), 0b111, np.uint8)
+            model.native.set_shape(model.first_skin + number, positions, faces, normals, uvs, edges)
+        for number in range(getattr(scene, "nflex", 0)):
+            self._set_flex(model, number)
+
+    def _set_flex(self, model: Model, number: int) -> None:
+        scene = self.scene
+        used = int(scene.flexfaceused[number])
+        of_geom = self._geoms[: scene.ngeom]
+        mine = of_geom[(of_geom["type"] == _FLEX_TYPE) & (of_geom["objid"] == number)]
+        radius = float(mine["size"][0, 0]) if len(mine) else 0.0
+        hidden = bool(scene.flexskinopt) and used > 0
+        frame = _flex_frame(model, scene, number, 0.0 if hidden else radius)
+        model.native.set_shape(model.first_flex + 2 * number, *frame)
+        begin = int(scene.flexfaceadr[number])
+        rows = slice(begin, begin + used)
+        positions = np.array(scene.flexface.reshape(-1, 3, 3)[rows], np.float32)
+        normals = np.array(scene.flexnormal.reshape(-1, 3, 3)[rows], np.float32)
+        uvs = np.array(scene.flextexcoord.reshape(-1, 3, 2)[rows], np.float32)
+        corners = np.arange(3 * used, dtype=np.int32).reshape(-1, 3)
+        edges = np.full(used, 0b111, np.uint8)
+        model.native.set_shape(
+            model.first_flex + 2 * number + 1,
+            positions.reshape(-1, 3),
+            corners,
+            normals,
+            uvs,
+            edges,
+        )
+
+
+def _flex_frame(model: Model, scene: Any, number: int, radius: float) -> tuple:
+    """Return the spheres at a flex's vertices and the cylinders along its edges."""
+    at: list[np.ndarray] = [np.zeros((0, 3, 3))]
+    normals: list[np.ndarray] = [np.zeros((0, 3, 3))]
+    edges: list[np.ndarray] = [np.zeros(0, np.uint8)]
+    begin, count = int(scene.flexvertadr[number]), int(scene.flexvertnum[number])
+    vertices = scene.flexvert.reshape(-1, 3)[begin : begin + count].astype(np.float64)
+    if radius > 0 and scene.flexvertopt:
+        shape = model.unit_sphere
+        at.append((vertices[:, None, None] + shape.at * radius).reshape(-1, 3, 3))
+        normals.append(np.tile(shape.normals, (count, 1, 1)))
+        edges.append(np.tile(shape.edges, count))
+    if radius > 0 and scene.flexedgeopt:
+        first = int(scene.flexedgeadr[number])
+        pairs = scene.flexedge.reshape(-1, 2)[first : first + int(scene.flexedgenum[number])]
+        shape = model.open_cylinder
+        a, b = vertices[pairs[:, 0]], vertices[pairs[:, 1]]
+        turns = _turns(b - a)
+        half = np.sqrt(_dot(b - a, b - a)) / 2
+        local = shape.at * [radius, radius, 1.0]
+        moved = np.repeat(local[None], len(pairs), axis=0)
+        moved[..., 2] *= half[:, None, None]
+        at.append((_turned(turns, moved) + ((a + b) / 2)[:, None, None]).reshape(-1, 3, 3))
+        tiled = np.repeat(shape.normals[None], len(pairs), axis=0)
+        normals.append(_turned(turns, tiled).reshape(-1, 3, 3))
+        edges.append(np.tile(shape.edges, len(pairs)))
+    positions = np.concatenate(at).reshape(-1, 3).astype(np.float32)
+    corners = np.arange(len(positions), dtype=np.int32).reshape(-1, 3)
+    return (
+        positions,
+        corners,
+        np.concatenate(normals).astype(np.float32),
+        None,
+        np.concatenate(edges),
+    )
+
+
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return (a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]) + a[..., 2] * b[..., 2]
+
+
+def _turned(turns: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Turn the points of each item: (N, 3, 3) and (N, ..., 3)."""
+    return np.stack([_dot(turns[:, r][:, None, None], points) for r in range(3)], axis=-1)
+
+
+def _turns(direction: np.ndarray) -> np.ndarray:
+    """Return the rotations of the z axis to directions, about the axis between them, (N, 3, 3)."""
+    length = np.sqrt(_dot(direction, direction))
+    x, y, z = (direction / np.maximum(length, 1e-15)[:, None]).T
+    opposite = z < -1 + 1e-12
+    share = 1 / np.where(opposite, 1.0, 1 + z)
+    out = np.empty((len(direction), 3, 3))
+    out[:, 0] = np.stack([1 - x * x * share, -x * y * share, x], axis=1)
+    out[:, 1] = np.stack([-x * y * share, 1 - y * y * share, y], axis=1)
+    out[:, 2] = np.stack([-x, -y, z], axis=1)
+    out[opposite] = np.diag([1.0, -1.0, -1.0])
+    return out
+
+
+# ---- the camera ----
+
+
+def camera_of(scene: Any, aspect: float, which: int = -1) -> tuple[np.ndarray, bool]:
+    """Return the camera's numbers for the core, and whether it is orthographic.
+
+    Parameters
+    ----------
+    scene : mujoco.MjvScene
+    aspect : float
+        Width over height.
+    which : int
+        0 or 1: an eye of stereo pictures; -1: the one between both.
+    """
+    eyes = scene.camera if which < 0 else (scene.camera[which],)
+    count = len(eyes)
+    position = sum(np.array(eye.pos, np.float64) for eye in eyes) / count
+    forward = _unit(sum(np.array(eye.forward, np.float64) for eye in eyes))
+    up = sum(np.array(eye.up, np.float64) for eye in eyes)
+    up = _unit(up - forward * _dot(forward, up))
+    right = _cross(forward, up)
+    bottom, top, near, far, center, half = (
+        sum(float(getattr(eye, f"frustum_{name}")) for eye in eyes) / count
+        for name in ("bottom", "top", "near", "far", "center", "width")
+    )
+    half = half or 0.5 * aspect * (top - bottom)
+    rows, eye = _transformed(scene, np.stack([right, up, forward]), position)
+    sides = center - half, center + half, bottom, top
+    numbers = [*rows.ravel(), *eye, *sides, near, far, *perspective_depth(near, far)]
+    return np.array(numbers, np.float64), bool(eyes[0].orthographic)
+
+
+def perspective_depth(near: float, far: float) -> tuple[np.float32, np.float32]:
+    """Return a scale and an offset: depth is offset / distance - scale.
+
+    In float32 and in OpenGL's order: the scale loses digits, and the metres of mujoco.Renderer
+    count on it.
+    """
+    n, f = np.float32(near), np.float32(far)
+    scale = np.float32(-0.5) * (-(f + n) / (f - n)) - np.float32(0.5)
+    return scale, np.float32(-0.5) * (-(np.float32(2) * f * n) / (f - n))
+
+
+def _transformed(
+    scene: Any, axes: np.ndarray, position: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return eye_from_world, (3, 4), and the eye, with the scene's own transformation of models."""
+    rows = np.concatenate([axes, -_dot(axes, position)[:, None]], axis=1)
+    if not scene.enabletransform:
+        return rows, position
+    w, x, y, z = (float(v) for v in scene.rotate)
+    length = math.sqrt(w * w + x * x + y * y + z * z)
+    w, x, y, z = (v / length for v in (w, x, y, z))
+    turn = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    move, scale = np.array(scene.translate, np.float64), float(scene.scale)
+    out = np.empty((3, 4))
+    for c in range(3):
+        out[:, c] = _dot(rows[:, :3], turn[:, c]) * scale
+    out[:, 3] = rows[:, 3] + _dot(rows[:, :3], move)
+    away = position - move
+    return out, np.array([_dot(turn[:, c], away) / scale for c in range(3)])
+
+
+def _unit(v: np.ndarray) -> np.ndarray:
+    return v / max(math.sqrt(_dot(v, v)), 1e-15)
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.array(
+        [a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3)]
+    )

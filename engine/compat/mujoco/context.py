@@ -1,0 +1,159 @@
+"""`MjrContext` and `GLContext`: where a program of MuJoCo draws to, without OpenGL."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import numpy as np
+
+from ..._native.mujoco import NativePicture
+from ...errors import InvalidArgumentError
+from ._model import Model
+from ._scenes import SceneView
+
+_OFFSCREEN = 1  # of mjtFramebuffer
+_ZERO_NEAR = 0  # of mjtDepthMap
+_MOST_AUX = 10
+
+
+class GLContext:
+    """Stands where programs make a context of OpenGL. It holds nothing, and belongs to no thread.
+
+    Parameters
+    ----------
+    max_width, max_height : int
+    """
+
+    def __init__(self, max_width: int, max_height: int) -> None:
+        pass
+
+    def make_current(self) -> None:
+        """Do nothing."""
+
+    def free(self) -> None:
+        """Do nothing."""
+
+
+class MjrContext:
+    """What pictures need of a model, and the picture that was drawn last.
+
+    Several may be used at once, in any thread; each draws one picture after the other.
+
+    Parameters
+    ----------
+    model : mujoco.MjModel, optional
+        Its meshes, height fields, textures, and ``vis`` are copied, as by MuJoCo's context.
+    fontscale : int
+        Of mjtFontScale.
+
+    Attributes
+    ----------
+    offWidth, offHeight, offSamples : int
+        Of the buffer that `mjr_render` draws to.
+    readDepthMap : int
+        Whether `mjr_readPixels` returns depths as 0 at the near plane (mjDEPTH_ZERONEAR), or at the
+        far plane.
+    """
+
+    def __init__(self, model: Any = None, fontscale: int = 150) -> None:
+        self.fontScale = int(fontscale)
+        self.currentBuffer = _OFFSCREEN
+        self.readDepthMap = _ZERO_NEAR
+        self.readPixelFormat = 6407  # GL_RGB
+        self.glInitialized = 1
+        self.windowAvailable = self.windowSamples = self.windowStereo = self.windowDoublebuffer = 0
+        self.auxWidth, self.auxHeight, self.auxSamples = (
+            np.zeros(_MOST_AUX, np.int32) for _ in range(3)
+        )
+        self.lock = threading.Lock()
+        self._picture: NativePicture | None = NativePicture()
+        self._view: SceneView | None = None
+        self._colors: np.ndarray | None = None
+        self._model: Model | None = None
+        self._drawn: list[
+            tuple
+        ] = []  # what the buffer shows: a rectangle, and how to draw its depths
+        self.offWidth = self.offHeight = self.offSamples = 0
+        self.shadowSize, self.lineWidth, self.shadowClip, self.shadowScale = 0, 1.0, 1.0, 0.6
+        self.fogStart, self.fogEnd, self.fogRGBA = 0.0, 0.0, np.zeros(4, np.float32)
+        self.nskin = self.ntexture = 0
+        if model is not None:
+            self._take(model)
+
+    def _take(self, model: Any) -> None:
+        import mujoco
+
+        major, minor = mujoco.mj_versionString().split(".")[:2]
+        self._model = Model(model, (int(major), int(minor)))
+        vis, extent = model.vis, float(model.stat.extent)
+        self.offWidth, self.offHeight = int(vis.global_.offwidth), int(vis.global_.offheight)
+        self.offSamples = self._model.samples if vis.quality.offsamples else 0
+        self.shadowSize, self.lineWidth = int(vis.quality.shadowsize), float(vis.global_.linewidth)
+        self.shadowClip = extent * float(vis.map.shadowclip)
+        self.shadowScale = float(vis.map.shadowscale)
+        self.fogStart, self.fogEnd = (
+            extent * float(vis.map.fogstart),
+            extent * float(vis.map.fogend),
+        )
+        self.fogRGBA = np.array(vis.rgba.fog, np.float32)
+        self.nskin, self.ntexture = int(model.nskin), int(model.ntex)
+
+    def free(self) -> None:
+        """Free the memory; arrays that were returned stay valid."""
+        self._picture = self._model = self._view = self._colors = None
+        self._drawn = []
+
+    @property
+    def model(self) -> Model:
+        """What pictures need of the model."""
+        if self._model is None:
+            raise InvalidArgumentError(
+                "a context without a model, or one that was freed, draws nothing"
+            )
+        return self._model
+
+    @property
+    def picture(self) -> NativePicture:
+        """The memory that pictures are drawn in."""
+        if self._picture is None:
+            raise InvalidArgumentError("a context that was freed draws nothing")
+        return self._picture
+
+    def view(self, scene: Any) -> SceneView:
+        """Return the memory of a scene; that of the last one is kept."""
+        if self._view is None or self._view.scene is not scene:
+            self._view = SceneView(scene)
+        return self._view
+
+    # ---- the buffer ----
+
+    @property
+    def colors(self) -> np.ndarray:
+        """The buffer's colours, (offHeight, offWidth, 3) uint8, the lowest row first."""
+        shape = self.offHeight, self.offWidth, 3
+        if self._colors is None or self._colors.shape != shape:
+            self._colors = np.zeros(shape, np.uint8)
+        return self._colors
+
+    def keep_depths(self, rectangle: tuple[int, int, int, int], draw: Any) -> None:
+        """Remember how the depths of a rectangle (left, bottom, width, height) are drawn.
+
+        ``draw`` is called with the context, and must not hold it.
+        """
+        self._drawn = [each for each in self._drawn if each[0] != rectangle][-7:]
+        self._drawn.append((rectangle, draw))
+
+    def depths(self, rectangle: tuple[int, int, int, int]) -> np.ndarray:
+        """Return the depths of a rectangle, (H, W) float32, the lowest row first; 0 is far."""
+        left, bottom, width, height = rectangle
+        for where, draw in self._drawn:
+            if where == rectangle and where is self._drawn[-1][0]:
+                return draw(self)[::-1]
+        out = np.zeros((self.offHeight, self.offWidth), np.float32)
+        for (x, y, w, h), draw in self._drawn:
+            out[y : y + h, x : x + w] = draw(self)[::-1]
+        return out[bottom : bottom + height, left : left + width]
+
+
+__all__ = ["GLContext", "MjrContext"]

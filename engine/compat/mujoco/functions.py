@@ -1,0 +1,188 @@
+"""MuJoCo's functions that draw to a context and read from it: mjr_…"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...errors import InvalidArgumentError, warn
+from ._frames import Prepared, draw_colors, draw_segments, is_segmented, prepare, segment_colors
+from ._scenes import camera_of
+from .context import MjrContext
+
+_ZERO_FAR = 1  # of mjtDepthMap
+
+
+def _clipped(viewport: Any, con: MjrContext) -> tuple[int, int, int, int]:
+    left, bottom = int(viewport.left), int(viewport.bottom)
+    width, height = int(viewport.width), int(viewport.height)
+    if left < 0 or bottom < 0 or left + width > con.offWidth or bottom + height > con.offHeight:
+        raise InvalidArgumentError(
+            f"the viewport {left}, {bottom}, {width} x {height} is not within the offscreen buffer "
+            f"of {con.offWidth} x {con.offHeight}: enlarge <visual><global offwidth= offheight=>"
+        )
+    return left, bottom, width, height
+
+
+def mjr_render(viewport: Any, scn: Any, con: MjrContext) -> None:
+    """Draw a scene to a rectangle of the context's buffer.
+
+    Parameters
+    ----------
+    viewport : mujoco.MjrRect
+    scn : mujoco.MjvScene
+    con : MjrContext
+    """
+    rectangle = left, bottom, width, height = _clipped(viewport, con)
+    if width <= 0 or height <= 0:
+        return
+    with con.lock:
+        if is_segmented(scn):
+            numbers, depths = draw_segments(scn, con, width, height, numbers=True, depths=True)
+            assert numbers is not None
+            colors = segment_colors(scn, con, numbers)
+            con.keep_depths(rectangle, lambda _: depths)
+        else:
+            colors = draw_colors(scn, con, width, height)
+            con.keep_depths(rectangle, _later_depths(scn, con, width, height))
+        con.colors[bottom : bottom + height, left : left + width] = colors[::-1]
+
+
+def _later_depths(scn: Any, con: MjrContext, width: int, height: int) -> Any:
+    """Return a function that draws the depths of a scene as it is now, when they are asked for."""
+    drawn = prepare(scn, con, lit=False)
+    geoms = drawn.geoms.copy()
+    geoms["segid"] = 0  # all are in a picture's depths
+    kept = Prepared(geoms, drawn.lights, drawn.ambient, drawn.flags)
+    camera = camera_of(scn, width / height)
+
+    def draw(context: MjrContext) -> np.ndarray | None:
+        options: dict[str, Any] = {"prepared": kept, "camera": camera}
+        return draw_segments(None, context, width, height, numbers=False, depths=True, **options)[1]
+
+    return draw
+
+
+def mjr_readPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None:
+    """Read a rectangle of the context's buffer, the lowest row first.
+
+    Parameters
+    ----------
+    rgb : array of uint8, of width * height * 3 elements, or None
+    depth : array of float32, of width * height elements, or None
+        Of the pixels' centres; 0 at the near plane and 1 at the far plane, or with the context's
+        readDepthMap mjDEPTH_ZEROFAR the other way round.
+    viewport : mujoco.MjrRect
+    con : MjrContext
+    """
+    rectangle = left, bottom, width, height = _clipped(viewport, con)
+    with con.lock:
+        if rgb is not None:
+            _fill(rgb, con.colors[bottom : bottom + height, left : left + width], "rgb")
+        if depth is not None:
+            values = con.depths(rectangle)
+            _fill(
+                depth, values if con.readDepthMap == _ZERO_FAR else np.float32(1) - values, "depth"
+            )
+
+
+def _fill(out: np.ndarray, values: np.ndarray, name: str) -> None:
+    if out.size != values.size:
+        raise InvalidArgumentError(
+            f"{name} has {out.size} elements: the viewport has {values.size}"
+        )
+    out[...] = values.reshape(out.shape)
+
+
+def mjr_setBuffer(framebuffer: int, con: MjrContext) -> None:
+    """Say where to draw. There is an offscreen buffer only."""
+    if int(framebuffer) == 0:
+        warn("there is no window to draw to: pictures go to the offscreen buffer")
+
+
+def mjr_restoreBuffer(con: MjrContext) -> None:
+    """Do nothing: a context keeps its buffer."""
+
+
+def mjr_resizeOffscreen(width: int, height: int, con: MjrContext) -> None:
+    """Set the size of the buffer; what it showed is lost."""
+    con.offWidth, con.offHeight = int(width), int(height)
+
+
+def mjr_maxViewport(con: MjrContext) -> Any:
+    """Return the rectangle of the whole buffer."""
+    import mujoco
+
+    return mujoco.MjrRect(0, 0, con.offWidth, con.offHeight)
+
+
+def mjr_uploadMesh(m: Any, con: MjrContext, meshid: int) -> None:
+    """Read a mesh of the model again."""
+    con.model.upload_mesh(_checked(meshid, m.nmesh, "mesh"))
+
+
+def mjr_uploadHField(m: Any, con: MjrContext, hfieldid: int) -> None:
+    """Read a height field of the model again."""
+    con.model.upload_hfield(_checked(hfieldid, m.nhfield, "height field"))
+
+
+def mjr_uploadTexture(m: Any, con: MjrContext, texid: int) -> None:
+    """Read a texture of the model again."""
+    con.model.upload_texture(_checked(texid, m.ntex, "texture"))
+
+
+def _checked(number: int, count: int, what: str) -> int:
+    if not 0 <= number < count:
+        raise InvalidArgumentError(f"there is no {what} {number}: the model has {count}")
+    return int(number)
+
+
+def mjr_finish() -> None:
+    """Do nothing: a picture is finished when its call returns."""
+
+
+def mjr_getError() -> int:
+    """Return 0."""
+    return 0
+
+
+def mjr_rectangle(viewport: Any, r: float, g: float, b: float, a: float) -> None:
+    """Warn: it names no context, so that it is not known where to draw."""
+    warn("mjr_rectangle is not drawn")
+
+
+def mjr_drawPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None:
+    """Write colours to a rectangle of the buffer, the lowest row first; depths are not written."""
+    left, bottom, width, height = _clipped(viewport, con)
+    if rgb is not None:
+        con.colors[bottom : bottom + height, left : left + width] = np.asarray(rgb).reshape(
+            height, width, 3
+        )
+    if depth is not None:
+        warn("mjr_drawPixels writes colours only")
+
+
+def _undrawn(name: str) -> Any:
+    def call(*args: Any, **kwargs: Any) -> None:
+        warn(f"{name} is not drawn")
+
+    call.__name__ = call.__qualname__ = name
+    call.__doc__ = "Warn: it is not drawn."
+    return call
+
+
+#: What is not drawn, each a warning that names it.
+UNDRAWN = (
+    *("mjr_overlay", "mjr_text", "mjr_figure", "mjr_label", "mjr_changeFont", "mjr_blitBuffer"),
+    *("mjr_addAux", "mjr_setAux", "mjr_blitAux"),
+)
+globals().update({name: _undrawn(name) for name in UNDRAWN})
+
+DRAWN = (
+    *("mjr_render", "mjr_readPixels", "mjr_setBuffer", "mjr_restoreBuffer", "mjr_resizeOffscreen"),
+    *("mjr_maxViewport", "mjr_uploadMesh", "mjr_uploadHField", "mjr_uploadTexture", "mjr_finish"),
+    *("mjr_getError", "mjr_rectangle", "mjr_drawPixels"),
+)
+
+__all__ = [*DRAWN, *UNDRAWN]

@@ -10,6 +10,7 @@ from loaders.test_gltf import data_uri, png, triangle_tree
 from plain_picture import Renderer
 
 import engine3d as e3d
+from engine3d import lights
 from engine3d.io.formats.gltf import gltf_pointers
 from engine3d.model.motion import properties
 from engine3d.model.motion.properties import Property, range_of
@@ -27,6 +28,8 @@ def things():
         e3d.DirectionalLight: e3d.DirectionalLight(),
         e3d.PointLight: e3d.PointLight(range=5.0, falloff="gltf"),
         e3d.SpotLight: e3d.SpotLight(range=5.0),
+        **{kind: kind(range=5.0) for kind in (lights.RectangleLight, lights.DiscLight)},
+        lights.TubeLight: lights.TubeLight(range=5.0),
     }
 
 

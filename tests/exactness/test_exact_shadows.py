@@ -379,7 +379,7 @@ def points_of_disc(ways, cosines, size):
 
 
 def shares(make, kind, softness, **options):
-    """How much of the light reaches every 60th pixel that it lights, positions, normals."""
+    """How much of the light reaches every 20th pixel that it lights, positions, normals."""
     outputs = ("radiance", "world_position", "world_normal")
     frames = []
     for shadow in ("none", ("exact", softness)):
@@ -387,8 +387,8 @@ def shares(make, kind, softness, **options):
         camera = (e3d.PerspectiveCamera(), pose)
         frames.append(render(scene, camera, size=SIZE, outputs=outputs, **options))
     lit = frames[0].radiance[..., 1] > 1e-4
-    share = frames[1].radiance[lit][::60, 1] / frames[0].radiance[lit][::60, 1].astype(np.float64)
-    return share, frames[0].world_position[lit][::60], frames[0].world_normal[lit][::60]
+    share = frames[1].radiance[lit][::20, 1] / frames[0].radiance[lit][::20, 1].astype(np.float64)
+    return share, frames[0].world_position[lit][::20], frames[0].world_normal[lit][::20]
 
 
 @pytest.mark.parametrize(("make", "softness"), [(still_life, 0.2), (fence, 0.06), (heap, 0.5)])
@@ -410,7 +410,7 @@ def test_soft_lights_like_rays_cast_in_float64(make, softness, kind):
     differ = np.abs(np.rint(share * POINTS) - counts)
     assert np.abs(share * POINTS - np.rint(share * POINTS)).max() < 1e-3
     assert differ.max() <= 2 and (differ > 0).mean() < 0.02  # rays that graze an edge
-    assert ((counts > 0) & (counts < POINTS)).mean() > 0.01
+    assert ((counts > 0) & (counts < POINTS)).sum() > 3
 
 
 def test_a_light_of_hardly_any_size_shades_as_one_without(kind):

@@ -17,10 +17,8 @@ from ._resting import Surfaces
 from ._view import View
 
 SAMPLES = 16  # a pixel
-# Of so many triangles, whose edges are mostly inside of surfaces.
-_MANY, _FEWER_SAMPLES = 1 << 20, 8
-# Of so many clear ones, which are slow.
-_MANY_CLEAR, _FEWEST_SAMPLES = 1 << 16, 4
+# Of so many triangles, which are mostly smaller than pixels; of so many clear ones, which are slow.
+_MANY, _MANY_CLEAR, _FEWER_SAMPLES = 1 << 20, 1 << 16, 4
 # Of the scene's depth: how much nearer an artist is at most than the one before, or the first.
 _RANK, _RANKS = 0.0001, 0.002
 _LIFT = 0.002  # of the scene's depth: how much nearer lines and markers are than surfaces
@@ -271,9 +269,8 @@ def _texture(pixels: np.ndarray):
 
 def _samples_for(looks: np.ndarray) -> int:
     """Return the samples of a pixel."""
-    if np.count_nonzero(looks) > _MANY_CLEAR:
-        return _FEWEST_SAMPLES
-    return SAMPLES if len(looks) <= _MANY else _FEWER_SAMPLES
+    is_crowded = len(looks) > _MANY or np.count_nonzero(looks) > _MANY_CLEAR
+    return _FEWER_SAMPLES if is_crowded else SAMPLES
 
 
 def drop_broken(places: np.ndarray, sizes: np.ndarray) -> None:

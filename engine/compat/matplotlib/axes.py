@@ -68,14 +68,14 @@ class Axes3D(axes3d.Axes3D):
         given = dict(zip(_OF_BARS, args, strict=False)) | kwargs
         place = [given.pop(name, None) for name in _OF_BARS[:6]]
         color = given.pop("color", None)
-        if color is None:
-            color = self._get_patches_for_fill.get_next_color()
         if (
             len(args) > len(_OF_BARS)
             or "data" in given
             or any(one is None or np.ndim(one) > 1 for one in place)
         ):
             return super().bar3d(*args, **kwargs)
+        if color is None:
+            color = self._get_patches_for_fill.get_next_color()
         had_data = self.has_data()
         place[0] = np.atleast_1d(place[0])
         arrays = np.broadcast_arrays(*place)

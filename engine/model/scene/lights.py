@@ -367,7 +367,7 @@ class RectangleLight(AreaLight):
     shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
         As for `DirectionalLight`. The light has one map, seen from its middle, and shadows are as
         soft as a disc of its area makes them. More than 76 degrees off the axis nothing is
-        shadowed. ``"exact"`` shadows are those of a point light in the middle.
+        shadowed. ``"exact"`` shadows ask 32 points of that disc, as it faces what they fall on.
 
     Attributes
     ----------

@@ -24,6 +24,7 @@ WRITERS = {
     "apps/batch/task.py": "for a hash",
     "apps/cli/commands/bench.py": "for people and programs",
     "apps/cli/commands/info.py": "for people and programs",
+    "apps/cli/commands/plugins.py": "for people and programs",
     "apps/datasets/bop_models.py": "bop-shapes",
     "apps/datasets/folders.py": "the data set itself",
     "apps/datasets/writer.py": "the data set itself",

@@ -67,6 +67,9 @@ LIT = {
     "DirectionalLight": lambda **how: e3d.DirectionalLight((0.3, -1, -0.5), **how),
     "PointLight": lambda **how: e3d.PointLight(e3d.linear(1, 0.5, 0.2), 9.0, **how),
     "SpotLight": lambda **how: e3d.SpotLight(e3d.linear(0.2, 0.5, 1), 20.0, **how),
+    "RectangleLight": lambda **how: e3d.lights.RectangleLight(intensity=4.0, width=2.0, **how),
+    "DiscLight": lambda **how: e3d.lights.DiscLight((1, 0.5, 0.2), 4.0, radius=0.7, **how),
+    "TubeLight": lambda **how: e3d.lights.TubeLight((0.2, 0.5, 1), 4.0, length=2.0, **how),
     "HemisphereLight": lambda: e3d.HemisphereLight(e3d.linear(1, 0.5, 0), (0, 0, 1)),
     "LightProbe": lambda: e3d.LightProbe(PROBE),
 }

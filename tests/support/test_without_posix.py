@@ -31,6 +31,11 @@ import subprocess, sys, tempfile, types
 import numpy, PIL.Image, rich.console, sdl2
 # Other packages start programs, for which Python 3.13 has names of `os`.
 subprocess._USE_POSIX_SPAWN = False
+for name in ("matplotlib.pyplot", "mujoco", "pyvista"):
+    try:
+        importlib.import_module(name)
+    except ImportError:
+        pass
 partly, wholly = json.load(sys.stdin)
 for module, names in partly.items():
     for name in names:

@@ -64,7 +64,7 @@ static void occupy(cast_job *job, const muj_draw *draw)
 static int find_casters(cast_job *job)
 {
     job->planes->count = 0;
-    while (job->picture->frame->shadow_size >> job->part_shift > PARTS)
+    while ((job->picture->frame->shadow_size - 1) >> job->part_shift >= PARTS)
         job->part_shift++;
     for (int32_t i = 0; i < job->count; i++) {
         const muj_draw *draw = muj_draw_of(job->picture, i);

@@ -167,6 +167,13 @@ static void set_camera(random_stream *r, e3d_muj_frame *frame, int hostile)
     frame->bottom = frame->left = -frame->top;
 }
 
+/* A size of shadow maps, just below 65 times a power of 2: their last texels lie beyond 64 parts of that size. */
+static int32_t any_uneven_size(random_stream *r)
+{
+    int shift = random_below(r, 7);
+    return (64 << shift) + (1 << shift) - 1;
+}
+
 static void set_frame(random_stream *r, scene *s, int hostile)
 {
     e3d_muj_frame *frame = &s->frame;
@@ -189,7 +196,7 @@ static void set_frame(random_stream *r, scene *s, int hostile)
     frame->has_haze = random_below(r, 2);
     frame->builtin_uvs = random_below(r, 2);
     frame->sky = random_below(r, TEXTURES + 1) - 1;
-    frame->shadow_size = random_below(r, 300);
+    frame->shadow_size = random_once_in(r, 2) ? any_uneven_size(r) : random_below(r, 300);
     frame->ambient = random_float(r, 0, 0.3f);
     frame->fog_start = any_float(r, 3, hostile), frame->fog_end = any_float(r, 9, hostile);
     frame->line_width = random_float(r, 0, 4);

@@ -116,7 +116,8 @@ def test_models_and_cameras_are_mujocos(model, data, value):
         renderer.update_scene(data, np.int64(0))
 
 
-def test_a_scene_without_room_for_geoms_is_empty(model, data):
+def test_a_scene_without_room_for_geoms_is_empty(model, data, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes a log
     with compat.Renderer(model, 16, 16, max_geom=0) as renderer:
         renderer.update_scene(data)
         assert not renderer.render().any()

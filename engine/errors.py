@@ -140,10 +140,13 @@ def _name_of(path: Any) -> str | None:
     return os.fsdecode(path) if isinstance(path, (bytes, os.PathLike)) else str(path)
 
 
+# Decorators of these packages stand between functions of engine3d; those of matplotlib call it.
+_PASSED = ("numpy", "contextlib", "matplotlib", "mpl_toolkits")
+
+
 def warn(message: str) -> None:
     """Issue an `Engine3DWarning` that points to the calling line outside engine3d."""
-    # Decorators of these packages stand between functions of engine3d.
-    passed, level = {__name__.partition(".")[0], "numpy", "contextlib"}, 1
+    passed, level = {__name__.partition(".")[0], *_PASSED}, 1
     frame: FrameType | None = sys._getframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] in passed:
         level, frame = level + 1, frame.f_back

@@ -39,8 +39,9 @@ def shown(value: Any) -> str:
 
 def as_array(value: Any, what: str) -> NDArray[Any]:
     """Return an array of any dtype; those of other libraries share their memory."""
+    given = on_host(value, what)
     try:
-        return np.asarray(on_host(value, what))
+        return np.asarray(given)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InvalidArgumentError(f"{what} is not an array: {error}") from None
 

@@ -83,10 +83,8 @@ class Look:
         choose(self.tone_mapping, _TONE_MAPPINGS, "tone_mapping")
         choose(self.shadow, get_args(LightShadow), "shadow")
         for name, word in (("ground", "mirror"), ("feature_edges", "auto")):
-            if isinstance(getattr(self, name), str):
-                choose(getattr(self, name), (True, False, word), name)
-            else:
-                vars(self)[name] = flag(getattr(self, name), name)
+            chosen = choose(getattr(self, name), (True, False, word), name)
+            vars(self)[name] = chosen if chosen == word else flag(chosen, name)
         for name in ("environment", "ambient_occlusion"):
             flag(getattr(self, name), name)
         vars(self)["background"] = _background(self.background)

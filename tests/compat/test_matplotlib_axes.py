@@ -172,6 +172,13 @@ def test_what_cannot_be_drawn_lies_on_top_with_a_warning(ax):
         pixels_of(ax)
 
 
+def test_warnings_point_at_the_callers_line(ax):
+    ax.plot([0, 1], [0, 1], [0, 1], drawstyle="steps")
+    with pytest.warns(Engine3DWarning, match="it has steps") as told:
+        saved(ax)
+    assert told[0].filename == __file__
+
+
 def test_flat_artists_lie_on_top_without_a_warning(ax):
     wall(ax)
     ax.text2D(0.4, 0.5, "flat", transform=ax.transAxes, color="r")
@@ -242,6 +249,39 @@ def test_voxels_are_one_collection_until_one_is_asked_for():
         ]
         assert np.allclose(*rows)
     assert len(ax.collections) == len(got)
+
+
+@pytest.mark.parametrize("shape", [(2, 3, 2), (1, 1, 1), (0, 0, 0), (0, 2, 3)])
+def test_voxels_without_any(ax, shape):
+    assert ax.voxels(np.zeros(shape, bool)) == {} and not ax.collections
+    pixels_of(ax)
+
+
+def test_bars_are_told_each_place_once(ax):
+    with pytest.raises(TypeError, match="multiple values"):
+        ax.bar3d([0], [0], [0], 1, 1, 1, x=[5])
+
+
+def test_markers_of_no_size_do_not_show(ax):
+    empty = pixels_of(ax)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # matplotlib takes the root, too
+        for sizes in (-5, np.nan, [-5, 0], [np.nan, -1e300]):
+            markers = ax.scatter([0, 0.5], [0, 0.5], [0, 0.5], s=sizes, linewidths=0)
+            assert np.array_equal(pixels_of(ax), empty)
+            markers.remove()
+        ax.scatter([0, 0.5], [0, 0.5], [0, 0.5], s=[-5, 200], color="r")
+        assert count(pixels_of(ax), (255, 0, 0)) > 50
+
+
+def test_colours_that_are_no_numbers_are_clear(ax):
+    empty = pixels_of(ax)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ax.plot_surface(
+            *SQUARE, np.zeros((2, 2)), facecolors=np.full((2, 2, 4), np.nan), shade=False
+        )
+        assert np.array_equal(pixels_of(ax), empty)
 
 
 def test_bars_are_those_of_mplot3d():

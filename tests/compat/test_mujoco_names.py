@@ -80,9 +80,81 @@ def test_out_is_written_and_returned(model, data):
         depth = np.zeros((32, 40), np.float32)
         assert renderer.render(out=depth) is depth
         assert depth.min() > 0
+        renderer.enable_segmentation_rendering()
+        for dtype in (np.int32, np.float64):
+            objects = np.full((32, 40, 2), 7, dtype)
+            assert renderer.render(out=objects) is objects
+            np.testing.assert_array_equal(objects, renderer.render())
+        with pytest.raises(ValueError, match="out.shape"):
+            renderer.render(out=np.zeros((32, 40, 3), np.uint8))
+        with pytest.raises(InvalidArgumentError, match="out must be an array"):
+            renderer.render(out=[0])
+        renderer.enable_depth_rendering()
         for shape in [(40, 32), (32, 40, 3)]:
             with pytest.raises(ValueError, match="out.shape"):
                 renderer.render(out=np.zeros(shape, np.float32))
+
+
+@pytest.mark.parametrize("value", [0, -1, 24.5, 24.0, "24", None, True, np.nan, np.float32(24)])
+def test_sizes_are_whole_numbers(model, value):
+    for name in ("height", "width"):
+        with pytest.raises(InvalidArgumentError, match=f"{name} must be a whole number in 1"):
+            compat.Renderer(model, **{name: value})
+
+
+@pytest.mark.parametrize("value", [None, "x", 5])
+def test_models_and_cameras_are_mujocos(model, data, value):
+    with pytest.raises(InvalidArgumentError, match="model must be a mujoco.MjModel"):
+        compat.Renderer(value)
+    if value is not None:
+        with pytest.raises(InvalidArgumentError, match="model must be a mujoco.MjModel"):
+            compat.MjrContext(value)
+    with compat.Renderer(model, 16, 16) as renderer:
+        for camera in (None, 0.5, np.nan, [0]):
+            with pytest.raises(InvalidArgumentError, match="camera must be a number"):
+                renderer.update_scene(data, camera)
+        renderer.update_scene(data, np.int64(0))
+
+
+def test_a_scene_without_room_for_geoms_is_empty(model, data, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes a log
+    with compat.Renderer(model, 16, 16, max_geom=0) as renderer:
+        renderer.update_scene(data)
+        assert not renderer.render().any()
+    for wrong in (-1, 2**31, 0.5, "a"):
+        with pytest.raises(InvalidArgumentError, match="max_geom"):
+            compat.Renderer(model, 16, 16, max_geom=wrong)
+
+
+def test_a_scene_must_be_filled_before_it_is_drawn(model):
+    with compat.Renderer(model, 16, 16) as renderer:
+        with pytest.raises(InvalidArgumentError, match="update_scene"):
+            renderer.render()
+
+
+def test_another_size_of_the_buffer_loses_what_it_showed(model, data):
+    scene, context = mujoco.MjvScene(model, 100), compat.MjrContext(model)
+    option, camera = mujoco.MjvOption(), mujoco.MjvCamera()
+    mujoco.mjv_updateScene(model, data, option, None, camera, 7, scene)
+    compat.mjr_render(mujoco.MjrRect(0, 0, 40, 32), scene, context)
+    compat.mjr_resizeOffscreen(8, 8, context)
+    depth, rgb = np.ones((8, 8), np.float32), np.ones((8, 8, 3), np.uint8)
+    compat.mjr_readPixels(rgb, depth, mujoco.MjrRect(0, 0, 8, 8), context)
+    assert not rgb.any() and (depth == 1).all()
+    for size in (-1, np.nan, 1 << 40, "8"):
+        with pytest.raises(InvalidArgumentError, match="must be a whole number"):
+            compat.mjr_resizeOffscreen(size, 8, context)
+
+
+def test_pixels_have_the_viewports_size(model):
+    context, rectangle = compat.MjrContext(model), mujoco.MjrRect(0, 0, 5, 5)
+    with pytest.raises(InvalidArgumentError, match="rgb has 5 elements: the viewport has 75"):
+        compat.mjr_drawPixels(np.zeros(5, np.uint8), None, rectangle, context)
+    with pytest.raises(InvalidArgumentError, match="rgb must be an array"):
+        compat.mjr_readPixels([0], None, rectangle, context)
+    for number in ("0", 0.5, None):
+        with pytest.raises(InvalidArgumentError, match="there is no mesh"):
+            compat.mjr_uploadMesh(model, context, number)
 
 
 def test_modes_exclude_one_another(model, data):

@@ -181,6 +181,16 @@ def test_a_broken_plugin_is_named_where_it_is_used(package, tmp_path, use):
             lambda: e3d.save_mesh(e3d.box(), "a.demo"),
             "returned 'lost', not None or a list",
         ),
+        *(
+            ("writers", code, lambda: e3d.save_mesh(e3d.box(), "a.demo"), "returned .* not None or")
+            for code in (
+                "def value(scene, file): return 5",
+                "def value(scene, file): return {'lost': 1}",
+                "def value(scene, file): return ['lost', 1]",
+                "def value(scene, file): yield 1 / 0",
+            )
+        ),
+        ("writers", "value = max", lambda: e3d.save_mesh(e3d.box(), "a.demo"), "raised TypeError"),
     ],
 )
 def test_what_breaks_the_contract_is_named(package, tmp_path, monkeypatch, group, code, use, said):
@@ -197,6 +207,15 @@ def test_what_breaks_the_contract_is_named(package, tmp_path, monkeypatch, group
         ("scenes", "def value(): return 3", ["render", "--scene", "demo"], "returned 3, not a Sc"),
         ("scenes", "value = 3", ["render", "--scene", "demo"], "must be a function"),
         ("commands", "def value(parser): pass", ["demo"], "returned NoneType, not the func"),
+        *(
+            (
+                "commands",
+                f"def value(parser): parser.add_argument('{option}'); return print",
+                ["demo"],
+                f"adds {option}, which every command has",
+            )
+            for option in ("--quiet", "--no-plugins")
+        ),
         ("commands", "def value(parser): return lambda args: {}['a']", ["demo"], "raised KeyError"),
         (
             "commands",
@@ -211,6 +230,28 @@ def test_a_command_says_what_is_wrong(package, tmp_path, capsys, group, code, ar
     out = ["-o", str(tmp_path / "a.png"), "--size", "16x12"] if len(arguments) > 1 else []
     assert main([*arguments, *out]) == 1
     assert f"of engine3d.{group}) {said}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["thing", "writer", "plugin", "scene", "files"])
+def test_options_of_writers_may_have_any_name(tmp_path, name):
+    """Those of the functions on the way do not get in between."""
+    code = f"def value(model, file, *, {name}=1): file.write(b'%d' % {name})"
+    space = {}
+    exec(code, space)
+    e3d.plugins.register("writers", "any", space["value"])
+    try:
+        e3d.save_mesh(e3d.box(), tmp_path / "a.any", **{name: 7})
+    finally:
+        e3d.plugins.unregister("writers", "any")
+    assert (tmp_path / "a.any").read_bytes() == b"7"
+
+
+def test_a_name_that_no_file_has_is_told(package, capsys):
+    package("def value(file): pass", readers={"VOX": "{0}:value"})
+    assert main(["plugins"]) == 1
+    assert "is never used: 'VOX' is not the extension of a file in lower case" in (
+        capsys.readouterr().out
+    )
 
 
 def test_a_programs_own_writer_has_nothing_to_do_with_a_broken_one(package):

@@ -46,7 +46,10 @@ def test_registered_readers_are_used_until_they_are_taken_back(tmp_path):
         ("commands", "render", "'render' is a name of engine3d's own commands"),
         ("scenes", "city", "'city' is a name of engine3d's own scenes"),
         ("looks", "plain", "'plain' is a name of engine3d's own looks"),
-        ("readers", ".vox", "name must be the extension of a file without a dot, not '.vox'"),
+        ("readers", ".vox", "name must be the extension of a file in lower case, without a dot"),
+        ("readers", "VOX", "name must be the extension of a file in lower case, .* not 'VOX'"),
+        ("writers", "a/b", "name must be the extension of a file in lower case, .* not 'a/b'"),
+        ("writers", "a\0", "name must be the extension of a file"),
         ("readers", "", "name must be"),
     ],
 )

@@ -105,6 +105,7 @@ MISTAKES = [
     (lambda: e3d.Scene().add(mesh(), name=5), "name must be a str, not 5"),
     (assign(node, "visible", "no"), "visible must be True or False, not 'no'"),
     (lambda: e3d.Material(two_sided="yes"), "two_sided must be True or False"),
+    (lambda: e3d.Look.studio(ground=None), "ground must be one of True, False, 'mirror', not None"),
     (lambda: e3d.Material(color="tab:blue"), "nor the name of a colour"),
     (lambda: e3d.Material(color="Oragne"), "did you mean orange?"),
     (lambda: e3d.Texture("brick.png"), "load_texture"),

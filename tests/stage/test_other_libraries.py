@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.errors import InvalidArgumentError
+from engine3d.errors import Engine3DWarning, InvalidArgumentError
 from engine3d.io.scenes.other_libraries import library_of, scene_of_library
 
 POINTS = np.array(
@@ -55,6 +55,41 @@ class TestMeshio:
         mesh = only_mesh(self.meshio.Mesh(POINTS[:4, :2], cells))
         assert area(mesh) == pytest.approx(1.5)
         assert mesh.lines.tolist() == [[0, 2]] and mesh.points.tolist() == [3]
+
+    def test_cells_that_are_not_drawn_are_named(self):
+        faces = [[[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]]
+        given = self.meshio.Mesh(
+            POINTS, [("polyhedron4", faces), ("triangle", [[0, 1, 2]]), ("triangle", [])]
+        )
+        with pytest.warns(Engine3DWarning, match="type polyhedron4 are not drawn") as told:
+            assert len(only_mesh(given).faces) == 1
+        assert len(told) == 1 and told[0].filename == __file__
+
+    @pytest.mark.parametrize(
+        ("kind", "rows", "said"),
+        [
+            ("triangle", [[0, 1, 8]], "hold the index 8, but there are 8 points"),
+            ("tetra", [[0, 1, 2, -1]], "hold the index -1"),
+            ("quad", [[0, 1, 2, 1 << 40]], "hold the index 1099511627776"),
+            ("polygon", [[0, 1, 1 << 32]], "hold the index 4294967296"),
+            ("line", [[0, 1.5]], "must be integers"),
+            ("hexahedron", [[0, 1, 2]], r"of shape \(C, 8\)"),
+            ("triangle", [[0, 1]], r"of shape \(C, 3\)"),
+            ("vertex", [0, 1], r"of shape \(C, 1\)"),
+        ],
+    )
+    def test_wrong_cells_are_refused(self, kind, rows, said):
+        given = self.meshio.Mesh(POINTS, {})
+        given.cells = [self.meshio.CellBlock(kind, rows if kind == "polygon" else np.array(rows))]
+        with pytest.raises(InvalidArgumentError, match=f"^{kind} cells .*{said}"):
+            e3d.render(given, size=(8, 6))
+
+    @pytest.mark.parametrize("points", [None, "abc", np.zeros(3), np.zeros((3, 4))])
+    def test_wrong_points_are_refused(self, points):
+        given = self.meshio.Mesh(POINTS, {})
+        given.points = points
+        with pytest.raises(InvalidArgumentError, match="^points "):
+            e3d.render(given, size=(8, 6))
 
     def test_data_of_points_colours_the_picture(self):
         given = self.meshio.Mesh(POINTS, {"quad": [[0, 1, 2, 3]]}, point_data={"t": np.arange(8.0)})

@@ -101,8 +101,11 @@ def test_arrays_of_other_libraries_count_as_numpys(name, kind):
 def test_memory_of_another_device_is_refused_by_name(name):
     call, array = TAKERS[name]
     for given in (OnCuda(), Tensor(array, CUDA)):
-        with pytest.raises(e3d.InvalidArgumentError, match="copy it to the host first, by tensor"):
+        with pytest.raises(
+            e3d.InvalidArgumentError, match="copy it to the host first, by tensor"
+        ) as said:
             call(given)
+        assert "is not an array" not in str(said.value)
 
 
 def test_what_a_library_says_is_passed_on():

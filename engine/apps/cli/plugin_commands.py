@@ -14,6 +14,10 @@ from ...base.plugins.plugin import Plugin, fault
 from ...base.plugins.registry import find_plugin, origins_of, plugin_names
 from ...errors import PluginError, warn
 from .commands import COMMANDS, Command
+from .plugin_switch import NO_PLUGINS
+
+# Options that `make_parser` adds after a plug-in's own.
+_SHARED = ("--quiet", NO_PLUGINS)
 
 
 def plugin_commands(asked: str | None) -> dict[str, Command]:
@@ -47,6 +51,9 @@ def _added(plugin: Plugin, parser: argparse.ArgumentParser) -> Callable:
     add = plugin.use()
     with plugin.named_in_errors():
         run = add(parser)
+    for option in _SHARED:
+        if option in parser._option_string_actions:
+            raise fault(plugin, f"adds {option}, which every command has")
     if not callable(run):
         raise fault(plugin, f"returned {type(run).__name__}, not the function that runs it")
     parser.description = (add.__doc__ or parser.description or "").strip()

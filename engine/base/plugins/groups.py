@@ -43,6 +43,12 @@ class Group(NamedTuple):
         """The name of the group in the metadata of packages."""
         return _PREFIX + self.name
 
+    def allows(self, name: str) -> bool:
+        """Return whether a name can be asked for: files' extensions are compared in lower case."""
+        plain = name.isprintable() and name == name.strip().removeprefix(".")
+        of_files = name == name.lower() and not set(name) & {"/", "\\"}
+        return bool(name) and plain and (of_files or self.names != _EXTENSION)
+
     def shipped_names(self) -> set[str]:
         """Return the names that engine3d itself has."""
         names: set[str] = import_module(f"engine3d.{self.home}").shipped_names()
@@ -58,7 +64,7 @@ def _is_look(value: Any) -> bool:
     return isinstance(value, import_module("engine3d.stage.look").Look)
 
 
-_EXTENSION, _FUNCTION = "the extension of a file", "a function"
+_EXTENSION, _FUNCTION = "the extension of a file in lower case,", "a function"
 GROUPS = {
     group.name: group
     for group in (

@@ -33,7 +33,7 @@ def register(group: str, name: str, value: Any) -> None:
         The value demands a newer contract than this engine3d knows.
     """
     row = group_named(group)
-    if not name.strip() or name != name.strip().removeprefix("."):
+    if not row.allows(name):
         raise InvalidArgumentError(f"name must be {row.names} without a dot, not {shown(name)}")
     if name in row.shipped_names():
         raise InvalidArgumentError(f"{name!r} is a name of engine3d's own {row.name}")

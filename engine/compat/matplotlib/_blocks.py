@@ -89,12 +89,9 @@ class Voxels(dict):
     """
 
     def __init__(self, axes, collection, voxel: np.ndarray, spread) -> None:
-        starts = (
-            np.flatnonzero(np.append(True, (np.diff(voxel, axis=0) != 0).any(1)))
-            if len(voxel)
-            else np.empty(0, int)
-        )
-        ends = np.append(starts[1:], len(voxel))
+        differs = (np.diff(voxel, axis=0) != 0).any(1)
+        starts = np.flatnonzero(np.append(len(voxel) > 0, differs))
+        ends = np.append(starts[1:], len(voxel))[: len(starts)]
         super().__init__(
             {tuple(map(int, voxel[a])): (int(a), int(b)) for a, b in zip(starts, ends, strict=True)}
         )

@@ -10,8 +10,8 @@ from matplotlib import colors as mcolors
 
 
 def codes_of(colors, alpha=None) -> np.ndarray:
-    """Return (N, 4) uint8 of colours as matplotlib takes them."""
-    rgba = np.asarray(mcolors.to_rgba_array(colors, alpha), float).reshape(-1, 4)
+    """Return (N, 4) uint8 of colours as matplotlib takes them; what is not a number is 0."""
+    rgba = np.nan_to_num(np.asarray(mcolors.to_rgba_array(colors, alpha), float).reshape(-1, 4))
     return np.rint(np.clip(rgba, 0.0, 1.0) * 255.0).astype(np.uint8)
 
 

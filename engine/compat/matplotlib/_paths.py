@@ -117,7 +117,8 @@ def draw_scatter(pile: Pile, view: View, collection) -> None:
     count, paths = len(places), collection.get_paths()
     if not count or not paths:
         return
-    scale = np.sqrt(np.asarray(collection.get_sizes(), float)) * view.points_to_pixels
+    areas = np.asarray(collection.get_sizes(), float)
+    scale = np.sqrt(np.where(areas > 0, areas, 0.0)) * view.points_to_pixels
     sizes = cycled(scale.reshape(-1), count) if scale.size else np.ones(count)
     widths = (
         cycled(np.asarray(collection.get_linewidth(), float).reshape(-1), count)

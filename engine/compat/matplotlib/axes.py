@@ -70,6 +70,7 @@ class Axes3D(axes3d.Axes3D):
         color = given.pop("color", None)
         if (
             len(args) > len(_OF_BARS)
+            or not set(kwargs).isdisjoint(_OF_BARS[: len(args)])
             or "data" in given
             or any(one is None or np.ndim(one) > 1 for one in place)
         ):

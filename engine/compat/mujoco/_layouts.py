@@ -106,6 +106,8 @@ def _layouts() -> tuple[tuple[np.dtype, int], tuple[np.dtype, int]]:
 
 def _view(items: Any, layout: tuple[np.dtype, int], count: int) -> np.ndarray:
     dtype, before = layout
+    if not count:
+        return np.empty(0, dtype)
     start = _address(items[0].pos) - before
     memory = (ctypes.c_uint8 * (dtype.itemsize * count)).from_address(start)
     return np.frombuffer(memory, dtype, count)

@@ -12,13 +12,14 @@ import numpy as np
 
 from ..._native.mujoco import GEOM, LIGHT, LIGHTS
 from ...base.linalg.trigonometry import cos, tan
-from ...errors import warn
+from ...errors import InvalidArgumentError, warn
 from ._layouts import view_geoms, view_lights
 from ._model import Model
 
 _GEOM = 5  # of mjtObj
 _FLEX_TYPE = 105  # of mjtGeom
 _SPOT, _DIRECTIONAL = 0, 1  # of mjtLightType
+_LEAST_NEAR = 1e-15  # mjMINVAL
 _AS_THEY_ARE = (
     *("type", "dataid", "objid", "category", "matid", "segid", "size", "pos", "mat", "rgba"),
     *("emission", "specular", "shininess", "reflectance", "texcoord"),
@@ -230,6 +231,11 @@ def camera_of(scene: Any, aspect: float, which: int = -1) -> tuple[np.ndarray, b
         Width over height.
     which : int
         0 or 1: an eye of stereo pictures; -1: the one between both.
+
+    Raises
+    ------
+    InvalidArgumentError
+        The scene has not been filled: its camera has no near plane, which ends programs of MuJoCo.
     """
     eyes = scene.camera if which < 0 else (scene.camera[which],)
     count = len(eyes)
@@ -242,6 +248,10 @@ def camera_of(scene: Any, aspect: float, which: int = -1) -> tuple[np.ndarray, b
         sum(float(getattr(eye, f"frustum_{name}")) for eye in eyes) / count
         for name in ("bottom", "top", "near", "far", "center", "width")
     )
+    if near < _LEAST_NEAR:
+        raise InvalidArgumentError(
+            "the scene's camera has no near plane: fill the scene by update_scene before"
+        )
     half = half or 0.5 * aspect * (top - bottom)
     rows, eye = _transformed(scene, np.stack([right, up, forward]), position)
     sides = center - half, center + half, bottom, top

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..._native.mujoco import NativePicture
+from ...base.numbers import shown
+from ...base.validation import whole_number
 from ...errors import InvalidArgumentError
 from ._model import Model
 from ._scenes import SceneView
@@ -15,6 +17,15 @@ from ._scenes import SceneView
 _OFFSCREEN = 1  # of mjtFramebuffer
 _ZERO_NEAR = 0  # of mjtDepthMap
 _MOST_AUX = 10
+_MOST_PIXELS = 1 << 16  # of a side
+
+
+def check_model(model: Any) -> None:
+    """Raise an InvalidArgumentError unless something is an MjModel."""
+    import mujoco
+
+    if not isinstance(model, mujoco.MjModel):
+        raise InvalidArgumentError(f"model must be a mujoco.MjModel, not {shown(model)}")
 
 
 class GLContext:
@@ -79,6 +90,7 @@ class MjrContext:
         self.fogStart, self.fogEnd, self.fogRGBA = 0.0, 0.0, np.zeros(4, np.float32)
         self.nskin = self.ntexture = 0
         if model is not None:
+            check_model(model)
             self._take(model)
 
     def _take(self, model: Any) -> None:
@@ -135,6 +147,12 @@ class MjrContext:
         if self._colors is None or self._colors.shape != shape:
             self._colors = np.zeros(shape, np.uint8)
         return self._colors
+
+    def resize(self, width: int, height: int) -> None:
+        """Give the buffer another size; what it showed is lost."""
+        self.offWidth = whole_number(width, "width", 0, _MOST_PIXELS)
+        self.offHeight = whole_number(height, "height", 0, _MOST_PIXELS)
+        self._colors, self._drawn = None, []
 
     def keep_depths(self, rectangle: tuple[int, int, int, int], draw: Any) -> None:
         """Remember how the depths of a rectangle (left, bottom, width, height) are drawn.

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numbers
 from typing import Any
 
 import numpy as np
 
+from ...base.numbers import shown
 from ...errors import InvalidArgumentError, warn
 from ._frames import Prepared, draw_colors, draw_segments, is_segmented, prepare, segment_colors
 from ._scenes import camera_of
@@ -88,11 +90,15 @@ def mjr_readPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None
 
 
 def _fill(out: np.ndarray, values: np.ndarray, name: str) -> None:
-    if out.size != values.size:
-        raise InvalidArgumentError(
-            f"{name} has {out.size} elements: the viewport has {values.size}"
-        )
-    out[...] = values.reshape(out.shape)
+    if not isinstance(out, np.ndarray):
+        raise InvalidArgumentError(f"{name} must be an array of NumPy, not {shown(out)}")
+    out[...] = values.reshape(_checked_pixels(out, values.size, name).shape)
+
+
+def _checked_pixels(array: np.ndarray, size: int, name: str) -> np.ndarray:
+    if array.size != size:
+        raise InvalidArgumentError(f"{name} has {array.size} elements: the viewport has {size}")
+    return array
 
 
 def mjr_setBuffer(framebuffer: int, con: MjrContext) -> None:
@@ -107,7 +113,8 @@ def mjr_restoreBuffer(con: MjrContext) -> None:
 
 def mjr_resizeOffscreen(width: int, height: int, con: MjrContext) -> None:
     """Set the size of the buffer; what it showed is lost."""
-    con.offWidth, con.offHeight = int(width), int(height)
+    with con.lock:
+        con.resize(width, height)
 
 
 def mjr_maxViewport(con: MjrContext) -> Any:
@@ -133,8 +140,8 @@ def mjr_uploadTexture(m: Any, con: MjrContext, texid: int) -> None:
 
 
 def _checked(number: int, count: int, what: str) -> int:
-    if not 0 <= number < count:
-        raise InvalidArgumentError(f"there is no {what} {number}: the model has {count}")
+    if not (isinstance(number, numbers.Integral) and 0 <= number < count):
+        raise InvalidArgumentError(f"there is no {what} {shown(number)}: the model has {count}")
     return int(number)
 
 
@@ -156,9 +163,8 @@ def mjr_drawPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None
     """Write colours to a rectangle of the buffer, the lowest row first; depths are not written."""
     left, bottom, width, height = _clipped(viewport, con)
     if rgb is not None:
-        con.colors[bottom : bottom + height, left : left + width] = np.asarray(rgb).reshape(
-            height, width, 3
-        )
+        out = con.colors[bottom : bottom + height, left : left + width]
+        out[...] = _checked_pixels(np.asarray(rgb), out.size, "rgb").reshape(out.shape)
     if depth is not None:
         warn("mjr_drawPixels writes colours only")
 

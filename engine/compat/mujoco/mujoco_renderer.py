@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import numbers
 from typing import Any
 
 import numpy as np
 
+from ...base.numbers import shown
+from ...base.validation import whole_number
+from ...errors import InvalidArgumentError
 from ._frames import draw_colors, draw_segments
 from ._scenes import perspective_depth
-from .context import MjrContext
+from .context import MjrContext, check_model
 
 _FONT_SCALE = 150
+_MOST_GEOMS = 2**31 - 1
 
 
 class Renderer:
@@ -30,6 +35,8 @@ class Renderer:
 
     Raises
     ------
+    InvalidArgumentError
+        Something is of another type; a size is less than 1.
     ValueError
         The size is larger than the model's offscreen buffer.
     """
@@ -46,12 +53,14 @@ class Renderer:
         self._gl_context = None
         import mujoco
 
-        _check_size("width", width, model.vis.global_.offwidth)
-        _check_size("height", height, model.vis.global_.offheight)
-        self._width, self._height, self._model = width, height, model
+        check_model(model)
+        self._width = _checked_size("width", width, model.vis.global_.offwidth)
+        self._height = _checked_size("height", height, model.vis.global_.offheight)
+        max_geom = whole_number(max_geom, "max_geom", 0, _MOST_GEOMS)
+        self._model = model
         self._scene = mujoco.MjvScene(model=model, maxgeom=max_geom)
         self._scene_option = mujoco.MjvOption()
-        self._rect = mujoco.MjrRect(0, 0, width, height)
+        self._rect = mujoco.MjrRect(0, 0, self._width, self._height)
         self._mjr_context = MjrContext(model, int(getattr(font_scale, "value", font_scale)))
         self._mjr_context.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
         self._depth_rendering = self._segmentation_rendering = False
@@ -125,7 +134,11 @@ class Renderer:
             number = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_CAMERA.value, wanted)
             if number == -1:
                 raise ValueError(f'The camera "{wanted}" does not exist.')
-        assert not isinstance(number, str)
+        elif not isinstance(wanted, numbers.Integral):
+            raise InvalidArgumentError(
+                f"camera must be a number, a name or a mujoco.MjvCamera, not {shown(wanted)}"
+            )
+        number = int(number)
         if number < -1 or number >= self._model.ncam:
             raise ValueError(f"The camera id {number} is out of range [-1, {self._model.ncam}).")
         camera = mujoco.MjvCamera()
@@ -143,7 +156,8 @@ class Renderer:
         Parameters
         ----------
         out : ndarray, optional
-            Where to write, of the result's shape; of any dtype to which it can be cast.
+            Where to write, of the result's shape; of any dtype to which it can be cast. It is
+            returned.
 
         Returns
         -------
@@ -168,7 +182,7 @@ class Renderer:
             if self._depth_rendering:
                 image = self._depths(context)
             elif self._segmentation_rendering:
-                return self._objects(context)
+                image = self._objects(context)
             else:
                 image = draw_colors(self._scene, context, self._width, self._height)
         if out is None:
@@ -177,14 +191,15 @@ class Renderer:
         return out
 
     def _check_out(self, out: np.ndarray) -> None:
-        channels = () if self._depth_rendering else (3,)
+        if not isinstance(out, np.ndarray):
+            raise InvalidArgumentError(f"out must be an array of NumPy, not {shown(out)}")
+        channels = () if self._depth_rendering else (2,) if self._segmentation_rendering else (3,)
         shape = self._height, self._width, *channels
         if out.shape != shape:
             raise ValueError(
-                f"Expected `out.shape == {shape}`. Got `out.shape={out.shape}` instead. When using "
-                "depth rendering, the out array should be of shape `(width, height)` and otherwise "
-                f"(width, height, 3). Got `(self.height, self.width)={shape[:2]}` and "
-                f"`self._depth_rendering={self._depth_rendering}`."
+                f"Expected `out.shape == {shape}`. Got `out.shape={out.shape}` instead: of depth "
+                "rendering it is `(height, width)`, of segmentation rendering "
+                "`(height, width, 2)`, otherwise `(height, width, 3)`."
             )
 
     def _depths(self, context: MjrContext) -> np.ndarray:
@@ -222,13 +237,14 @@ class Renderer:
         self.close()
 
 
-def _check_size(side: str, size: int, most: int) -> None:
-    if size > most:
+def _checked_size(side: str, size: int, most: int) -> int:
+    if isinstance(size, numbers.Integral) and size > most:
         raise ValueError(
             f"Image {side} {size} > framebuffer {side} {most}. Either reduce the image\n{side} or "
             "specify a larger offscreen framebuffer in the model XML using the\nclause:\n<visual>\n"
             f'  <global off{side}="my_{side}"/>\n</visual>'
         )
+    return whole_number(size, side, 1, most)
 
 
 __all__ = ["Renderer"]

@@ -23,20 +23,24 @@ def options_of(plugin: Plugin) -> tuple[str, ...]:
     PluginError
         The plug-in cannot be imported, or is no writer.
     """
-    parameters = inspect.signature(plugin.load()).parameters.values()
+    write = plugin.load()
+    try:
+        parameters = inspect.signature(write).parameters.values()
+    except ValueError:  # functions of C need not tell
+        return ()
     return tuple(each.name for each in parameters if each.kind is each.KEYWORD_ONLY)
 
 
 def write_with_plugin(
-    plugin: Plugin, scene: Scene, path: str, files: Any, **options: Any
+    plugin: Plugin, scene: Scene, path: str, files: Any, /, **options: Any
 ) -> list[str]:
     """Write a scene with a plug-in, as `Writer.write`."""
     content = io.BytesIO()  # writers may go back in it, and close it
     content.close = lambda: None  # type: ignore[method-assign]
     with plugin.named_in_errors():
         told = plugin.use()(scene, content, **options)
-    lines = [] if told is None else list(told)
-    if isinstance(told, (str, bytes)) or not all(isinstance(line, str) for line in lines):
+    lines = [] if told is None else told
+    if not (isinstance(lines, (list, tuple)) and all(isinstance(line, str) for line in lines)):
         raise fault(plugin, f"returned {shown(told)}, not None or a list of warnings")
     files.create(path).write(content.getbuffer())
-    return lines
+    return list(lines)

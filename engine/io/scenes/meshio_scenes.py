@@ -1,7 +1,8 @@
 """Converts meshes of meshio for drawing.
 
 In: a ``meshio.Mesh``. Out: a `Scene` with one mesh: its polygons, lines and vertices, and the outer
-faces of its volumes. Data of points become values of the mesh. The axes stay.
+faces of its volumes. Data of points become values of the mesh. The axes stay. Cells of other types
+are left out, with a warning.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.numbers import as_array, floats
+from ...errors import InvalidArgumentError, warn
 from ...model.scene.scene import Scene
 from .cell_meshes import Cells, mesh_of_cells
 
@@ -25,36 +28,51 @@ _FACES: dict[str, tuple[tuple[int, ...], ...]] = {
         *((1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
     ),
 }
+_SIZES = {
+    **_POLYGONS,
+    **{kind: 1 + max(max(face) for face in faces) for kind, faces in _FACES.items()},
+    "line": 2,
+    "vertex": 1,
+}
 
 
 def scene_from_meshio(mesh: Any) -> Scene | None:
     """Return a scene converted from a mesh of meshio; None for its other objects."""
     if not (hasattr(mesh, "points") and hasattr(mesh, "cells")):
         return None
-    points = np.asarray(mesh.points, np.float64)
+    points = floats(mesh.points, "points")
+    if points.ndim != 2 or points.shape[1] not in (2, 3):
+        raise InvalidArgumentError(f"points must have shape (N, 2) or (N, 3), got {points.shape}")
     if points.shape[1] == 2:
         points = np.pad(points, ((0, 0), (0, 1)))
     scene = Scene()
-    scene.add(mesh_of_cells(points, _cells(mesh), mesh.point_data, {}), name="mesh")
+    cells = _cells(mesh, len(points))
+    scene.add(mesh_of_cells(points, cells, mesh.point_data, {}), name="mesh")
     return scene
 
 
-def _cells(mesh: Any) -> Cells:
+def _cells(mesh: Any, count: int) -> Cells:
     polygons: list[NDArray[Any]] = []
     outer: list[NDArray[Any]] = []
     lines, points = [np.zeros((0, 2), np.int32)], [np.zeros(0, np.int32)]
     for block in mesh.cells:
         kind, data = block.type.rstrip("0123456789"), block.data
-        if kind in _POLYGONS:
-            polygons.append(np.asarray(data)[:, : _POLYGONS[kind]])
-        elif kind == "polygon":
-            polygons += [np.asarray(one)[None] for one in data]
-        elif kind in _FACES:
-            outer += [np.asarray(data)[:, list(face)] for face in _FACES[kind]]
-        elif kind == "line":
-            lines.append(np.asarray(data)[:, :2])
-        elif kind == "vertex":
-            points.append(np.asarray(data).reshape(-1))
+        if not len(data):
+            continue
+        if kind == "polygon":
+            polygons += [_corners([one], kind, 1, count) for one in data]
+        elif kind not in _SIZES:
+            warn(f"cells of the type {block.type} are not drawn")
+        else:
+            rows = _corners(data, kind, _SIZES[kind], count)
+            if kind in _POLYGONS:
+                polygons.append(rows)
+            elif kind in _FACES:
+                outer += [rows[:, list(face)] for face in _FACES[kind]]
+            elif kind == "line":
+                lines.append(rows)
+            else:
+                points.append(rows.reshape(-1))
     polygons += _once(outer, 3) + _once(outer, 4)
     sizes = [np.full(len(rows), rows.shape[1], np.int32) for rows in polygons]
     corners = [rows.reshape(-1) for rows in polygons]
@@ -65,6 +83,23 @@ def _cells(mesh: Any) -> Cells:
         np.concatenate(lines).astype(np.int32),
         np.concatenate(points).astype(np.int32),
     )
+
+
+def _corners(data: Any, kind: str, size: int, count: int) -> NDArray[Any]:
+    """Return the corners of cells, (C, size), or of one polygon, checked to be among the points."""
+    rows = as_array(data, f"{kind} cells")
+    if rows.ndim != 2 or rows.shape[1] < size or rows.dtype.kind not in "iu":
+        raise InvalidArgumentError(
+            f"{kind} cells must be integers of shape (C, {size}), not {rows.dtype} of {rows.shape}"
+        )
+    rows = rows if kind == "polygon" else rows[:, :size]
+    low, high = int(rows.min()), int(rows.max())
+    if low < 0 or high >= count:
+        wrong = low if low < 0 else high
+        raise InvalidArgumentError(
+            f"{kind} cells hold the index {wrong}, but there are {count} points"
+        )
+    return rows
 
 
 def _once(faces: list[NDArray[Any]], corners: int) -> list[NDArray[Any]]:

@@ -56,7 +56,7 @@ def save_mesh(
     write(thing, path, writer, **options)
 
 
-def write(thing: Mesh | Scene, path: Any, writer: Writer, **options: Any) -> None:
+def write(thing: Mesh | Scene, path: Any, writer: Writer, /, **options: Any) -> None:
     """Write what a writer takes to a path or a binary file object; otherwise as `save_mesh`."""
     name = _name_of(path)
     unknown = sorted(set(options) - set(writer.options))

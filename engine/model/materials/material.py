@@ -220,7 +220,8 @@ class Material(ShownInNotebooks, Versioned):
         SHARE,
         default=0.0,
         gltf="diffuse_transmission/diffuseTransmissionFactor",
-        doc="Share of the scattered light that leaves on the other side: of leaves, paper, wax.",
+        doc="Share of the scattered light that leaves on the other side: of leaves, paper, wax. "
+        "Metals scatter none: give `metallic=0`, too.",
     )
     diffuse_transmission_color: ColorNumbers = Parameter(
         COLOR,

@@ -50,6 +50,9 @@ def _unused(plugin: Plugin) -> str | None:
     """Return why a plug-in is not used, whatever it holds; None if it is."""
     if plugin.name in GROUPS[plugin.group].shipped_names():
         return f"{plugin} is never used: engine3d itself has {plugin.name!r}"
+    if not GROUPS[plugin.group].allows(plugin.name):
+        kind = GROUPS[plugin.group].names.rstrip(",")
+        return f"{plugin} is never used: {plugin.name!r} is not {kind}"
     names = Counter((one.group, one.name) for one in listed())
     if names[plugin.group, plugin.name] > 1:
         return f"{plugin} is not used: another package adds {plugin.name!r}, too"

@@ -100,6 +100,9 @@ e3d.load_mesh(3)
 """
 
 
+EXTRAS = ("matplotlib", "meshio", "mujoco", "pandas", "pyvista", "trimesh")
+
+
 def blocks(page):
     """The Python of a page, on the lines where it stands there."""
     lines, inside = [], False
@@ -119,7 +122,7 @@ def sources(tmp_path_factory):
     (folder / "packages" / "engine3d").symlink_to(Path(engine3d.__file__).parent)
     for page in PAGES:
         text = blocks(page)
-        if any(f"import {each}" in text and not find_spec(each) for each in ("pandas", "trimesh")):
+        if any(f"import {each}" in text and not find_spec(each) for each in EXTRAS):
             continue
         if text.strip():
             name = "_".join(page.relative_to(ROOT).with_suffix("").parts)

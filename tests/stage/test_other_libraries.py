@@ -56,6 +56,28 @@ class TestMeshio:
         assert area(mesh) == pytest.approx(1.5)
         assert mesh.lines.tolist() == [[0, 2]] and mesh.points.tolist() == [3]
 
+    def test_numbers_of_cells_are_those_of_their_faces(self):
+        both = [[0, 1, 2, 3, 4, 5, 6, 7], [1, 8, 9, 2, 5, 10, 11, 6]]
+        cells = [("line", [[0, 6]]), ("hexahedron", both), ("quad", [[0, 1, 5, 4]])]
+        given = self.meshio.Mesh(np.vstack([POINTS, BESIDE]), cells)
+        given.cell_data = {
+            "which": [[9], [1, 2], [3]],
+            "forces": [np.ones((n, 3)) for n in (1, 2, 1)],
+        }
+        mesh = only_mesh(given)
+        middles = mesh.positions[mesh.faces].mean(axis=1)
+        expected = np.where(middles[2:, 0] > 1, 2, 1)
+        assert mesh.values["which"][:2].tolist() == [3, 3]
+        assert mesh.values["which"][2:].tolist() == expected.tolist()
+        assert mesh.values["forces"].shape == (22, 3)
+
+    def test_numbers_that_do_not_fit_cells_are_left_out(self):
+        given = self.meshio.Mesh(POINTS, [("triangle", [[0, 1, 2]]), ("quad", [[0, 1, 5, 4]])])
+        given.cell_data = {"few": [[1.0]], "uneven": [np.ones((1, 2)), np.ones((1, 3))]}
+        with pytest.warns(Engine3DWarning, match="cell data '(few|uneven)' do not fit") as told:
+            assert not only_mesh(given).values
+        assert len(told) == 2 and told[0].filename == __file__
+
     def test_cells_that_are_not_drawn_are_named(self):
         faces = [[[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]]
         given = self.meshio.Mesh(

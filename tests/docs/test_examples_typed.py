@@ -13,6 +13,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from page_extras import missing_extra
 
 import engine3d
 
@@ -100,9 +101,6 @@ e3d.load_mesh(3)
 """
 
 
-EXTRAS = ("matplotlib", "meshio", "mujoco", "pandas", "pyvista", "trimesh")
-
-
 def blocks(page):
     """The Python of a page, on the lines where it stands there."""
     lines, inside = [], False
@@ -122,7 +120,7 @@ def sources(tmp_path_factory):
     (folder / "packages" / "engine3d").symlink_to(Path(engine3d.__file__).parent)
     for page in PAGES:
         text = blocks(page)
-        if any(f"import {each}" in text and not find_spec(each) for each in EXTRAS):
+        if missing_extra(text):
             continue
         if text.strip():
             name = "_".join(page.relative_to(ROOT).with_suffix("").parts)

@@ -6,6 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from page_extras import missing_extra
 
 from engine3d import box, save_mesh
 from engine3d.apps.cli import main
@@ -106,9 +107,8 @@ def closing_windows(monkeypatch):
 def test_python_examples_run(page, tmp_path, monkeypatch, closing_windows):
     monkeypatch.chdir(tmp_path)
     names, text = {}, page.read_text(encoding="utf-8")
-    for package in ("pandas", "trimesh"):
-        if f"import {package}" in text:
-            pytest.importorskip(package)
+    if missing := missing_extra(text):
+        pytest.skip(f"pip install {missing}")
     for block in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S):
         exec(compile(block, page.name, "exec"), names)
 

@@ -1,0 +1,11 @@
+"""Packages that pages of the documentation import, and that a first install lacks."""
+
+from importlib.util import find_spec
+
+EXTRAS = ("matplotlib", "meshio", "mujoco", "pandas", "pyvista", "trimesh")
+
+
+def missing_extra(text):
+    """Return the first of these packages that a page imports and that isn't there, or None."""
+    named = (each for each in EXTRAS if f"import {each}" in text)
+    return next((each for each in named if find_spec(each) is None), None)

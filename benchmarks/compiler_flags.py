@@ -38,9 +38,16 @@ CPU_LACKS_IT = 3  # exit status of the timer
 TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}
 # What frames need beside the kernels, and of that what the kernels do.
 CORE = [f"csrc/{room}/**/*.c" for room in ("base", "data", "frame", "reference")]
-CORE += ["csrc/light/dfg_table.c", "csrc/light/handle.c"]
+CORE += ["csrc/light/area_table.c", "csrc/light/dfg_table.c", "csrc/light/handle.c"]
 # What the kernels alone are linked with.
-TABLES = ["data_encode_tables", "data_srgb_tables", "light_dfg_table", "light_handle"]
+TABLES = [
+    "data_encode_tables",
+    "data_light_points",
+    "data_srgb_tables",
+    "light_area_table",
+    "light_dfg_table",
+    "light_handle",
+]
 # Kernel -> its heading, and the element that a time is given for.
 KERNELS = {
     "transform": ("transform", "vertex"),

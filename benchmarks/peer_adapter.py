@@ -186,4 +186,4 @@ def physical_lights(scene):
     yield e3d.DirectionalLight(direction=direction), None
     for (x, y, z, _), color in zip(scene.light_pos, scene.light_col, strict=True):
         color = tuple(map(float, color[:3]))
-        yield e3d.PointLight(color=color), (float(x), float(y), float(z))
+        yield e3d.PointLight(color=e3d.linear(color)), (float(x), float(y), float(z))

@@ -203,3 +203,11 @@ outcome compare_hashes(hash_of find, const void *input, const run_plan *plan, co
         }
     return result;
 }
+
+outcome compare_thread_counts(hash_of find, const void *input, const run_plan *plan, const char *title)
+{
+    run_plan one = *plan;
+    for (int k = 0; k < E3D_BACKEND_COUNT; k++)
+        one.backends[k] = k == E3D_BACKEND_SCALAR;
+    return compare_hashes(find, input, &one, title);
+}

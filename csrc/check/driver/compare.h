@@ -29,6 +29,8 @@ typedef uint64_t (*hash_of)(const void *input, e3d_backend backend, int32_t thre
 
 /* Compares the hashes of one input. */
 outcome compare_hashes(hash_of find, const void *input, const run_plan *plan, const char *title);
+/* The same of what chooses no backend: for each thread count alone. */
+outcome compare_thread_counts(hash_of find, const void *input, const run_plan *plan, const char *title);
 /* `title` (or NULL for silence) begins the lines that tell standard error what differs. */
 outcome compare_scene(random_stream r, const run_plan *plan, const char *title);
 /* The same scene, some of whose materials are masked or blended. */

@@ -4,7 +4,6 @@
 #include "check/driver/scenes/mujoco_scene.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "e3d_mujoco.h"
 
@@ -236,21 +235,25 @@ static uint64_t draw(scene *s, int32_t threads, e3d_muj_memory *memory)
     return hash_bytes(hash, (const uint8_t *)s->geom, pixels * sizeof *s->geom);
 }
 
+/* What is drawn, with the memory that its pictures share. */
+typedef struct drawing {
+    scene *scene;
+    e3d_muj_memory *memory;
+} drawing;
+
+static uint64_t hash_drawn(const void *input, e3d_backend backend, int32_t threads)
+{
+    const drawing *drawn = input;
+    (void)backend; /* no instruction set is chosen */
+    return drawn->memory ? draw(drawn->scene, threads, drawn->memory) : 0;
+}
+
 outcome compare_mujoco(random_stream r, const run_plan *plan, const char *title)
 {
     static scene s;
-    outcome result = {.agrees = 1};
-    e3d_muj_memory *memory = e3d_muj_memory_new();
+    const drawing drawn = {&s, e3d_muj_memory_new()};
     set_scene(&r, &s);
-    for (int32_t t = 0; t < plan->thread_counts; t++) {
-        uint64_t hash = memory ? draw(&s, plan->threads[t], memory) : 0;
-        result.hash = result.hash == 0 ? hash : result.hash;
-        if (hash != 0 && hash == result.hash)
-            continue;
-        result.agrees = 0;
-        if (title != NULL)
-            fprintf(stderr, "%s: a picture with %d threads differs\n", title, (int)plan->threads[t]);
-    }
-    e3d_muj_memory_free(memory);
+    outcome result = compare_thread_counts(hash_drawn, &drawn, plan, title);
+    e3d_muj_memory_free(drawn.memory);
     return result;
 }

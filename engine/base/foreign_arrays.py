@@ -66,3 +66,16 @@ def is_foreign_array(value: Any) -> bool:
     if isinstance(value, (np.ndarray, np.generic)):
         return False
     return hasattr(value, "__dlpack__") or hasattr(value, "__cuda_array_interface__")
+
+
+def without_axes(value: Any, what: str) -> Any:
+    """Return the number in an array without axes, as a tensor's element is; else the value itself.
+
+    Raises
+    ------
+    InvalidArgumentError
+        As `on_host`.
+    """
+    if isinstance(value, np.generic) or getattr(value, "shape", None) != ():
+        return value
+    return np.asarray(on_host(value, what)).item()

@@ -9,6 +9,7 @@ import numbers
 from typing import Any
 
 from ..errors import InvalidArgumentError
+from .foreign_arrays import without_axes
 from .numbers import shown
 
 MAX_SIZE = 16384
@@ -31,6 +32,7 @@ def sides_of(value: Any) -> tuple[Any, Any]:
 
 def _check_side(value: Any, what: str) -> int:
     """Return a side of an image, checked."""
+    value = without_axes(value, what)
     if not isinstance(value, numbers.Integral) or not 1 <= int(value) <= MAX_SIZE:
         raise InvalidArgumentError(
             f"{what} must be a whole number in 1..{MAX_SIZE}, not {shown(value)}"

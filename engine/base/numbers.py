@@ -15,13 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InvalidArgumentError
-from .foreign_arrays import on_host
+from .foreign_arrays import on_host, without_axes
 
 
 def real(value: Any) -> float:
     """Return a value as a float; NaN if it is not a number."""
     if not isinstance(value, numbers.Real):
-        return math.nan
+        value = without_axes(value, "a number")
+        if not isinstance(value, numbers.Real):
+            return math.nan
     try:
         return float(value)
     except OverflowError:

@@ -21,6 +21,7 @@ from ..choices import Color, ColorLike
 from ..errors import InvalidArgumentError
 from .calls import hinted, is_flag
 from .dirty_tracking import renew
+from .foreign_arrays import without_axes
 from .foreign_names import UnknownName, refuses_foreign_names
 from .near_words import meant
 from .numbers import floats, real, shown
@@ -173,6 +174,7 @@ def text(value: str, what: str) -> str:
 
 def whole_number(value: int, what: str, least: int, most: int) -> int:
     """Return a checked integer in a range."""
+    value = without_axes(value, what)
     whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
     if not (whole and least <= value <= most):
         raise InvalidArgumentError(

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native import canvas as native
 from .._native.images import encode_png
-from ..base.foreign_arrays import is_foreign_array
+from ..base.foreign_arrays import is_foreign_array, without_axes
 from ..base.image_size import sides_of
 from ..base.numbers import as_array, floats, real, shown
 from ..base.validation import FixedNames, choose, flag
@@ -428,7 +428,7 @@ def _positions(values: ArrayLike, columns: int, name: str) -> NDArray[np.float64
 
 def _numbers(what: str, *values: float) -> list[float]:
     for value in values:
-        if not isinstance(value, numbers.Real):
+        if not isinstance(without_axes(value, what), numbers.Real):
             raise InvalidArgumentError(f"{what} must be numbers, not {shown(value)}")
     return list(map(real, values))
 

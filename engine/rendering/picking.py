@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..base import linalg
+from ..base.foreign_arrays import without_axes
 from ..base.numbers import shown
 from ..errors import InvalidArgumentError
 from ..model.scene.cameras import far_depth
@@ -29,6 +30,7 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
     """Return what a pixel shows; see `Scene.pick`."""
     if not isinstance(frame, Frame):
         raise InvalidArgumentError(f"frame must be a Frame, not {type(frame).__name__}")
+    x, y = without_axes(x, "x"), without_axes(y, "y")
     for value in (x, y):
         if not isinstance(value, numbers.Real):
             raise InvalidArgumentError(f"x and y, a pixel, are numbers, not {shown(value)}")

@@ -74,6 +74,9 @@ TAKERS = {
     "render": (lambda given: e3d.render(given, size=(8, 6)).color, POINTS),
     "Canvas": (lambda given: e3d.Canvas(given).pixels, np.zeros((4, 3, 4), np.uint8)),
     "rasterize": (lambda given: rasterized(given), np.ones((3, 4), np.float32)),
+    "Material.color": (lambda given: e3d.Material(color=given).color, np.array([0.5, 0.25, 1.0])),
+    "Scene.background": (lambda given: e3d.Scene(background=given).background, PIXELS[0, 1]),
+    "linear": (lambda given: e3d.linear(given), np.array([2.0, 0.5, 1.0])),
     "frame_bounds": (lambda given: e3d.frame_bounds(given)[1], np.array([[0, 0, 0], [1, 1, 1.0]])),
 }
 
@@ -164,3 +167,45 @@ def test_tensors_of_pytorch():
     with pytest.raises(e3d.InvalidArgumentError, match="torch.Tensor does not hand its numbers"):
         e3d.Mesh(torch.ones((3, 3), requires_grad=True), FACES)
     assert torch.from_dlpack(e3d.render(mesh, size=(8, 6))).shape == (6, 8, 4)
+
+
+#: Calls that take one number, and that number.
+NUMBERS = {
+    "size": (lambda given: e3d.Renderer((given, 3)).width, 8),
+    "intensity": (lambda given: e3d.PointLight(intensity=given).intensity, 2.5),
+    "roughness": (lambda given: e3d.Material(roughness=given).roughness, 0.25),
+    "color": (lambda given: e3d.Material(color=[given, 0, 0]).color, 128),
+    "linear": (lambda given: e3d.linear(given, 1, 1), 2.0),
+    "fov": (lambda given: e3d.PerspectiveCamera(given).yfov, 0.5),
+    "scale": (lambda given: e3d.Scene().add(e3d.box(), scale=given).scale, 2.0),
+    "subdivisions": (lambda given: e3d.icosphere(1.0, given).positions, 2),
+    "line_width": (lambda given: e3d.RenderOptions(line_width=given).line_width, 3.0),
+}
+
+
+def arrays_of(library):
+    """Return what makes an array of a library; NumPy's are the arrays without axes themselves."""
+    module = pytest.importorskip(library, exc_type=ImportError)
+    return module.tensor if library == "torch" else module.asarray
+
+
+@pytest.mark.parametrize("library", ["numpy", "torch", "jax.numpy"])
+@pytest.mark.parametrize("name", NUMBERS)
+def test_an_element_of_an_array_is_a_number(name, library):
+    call, number = NUMBERS[name]
+    assert np.array_equal(call(arrays_of(library)(number)), call(number))
+
+
+@pytest.mark.parametrize("library", ["numpy", "torch", "jax.numpy"])
+def test_several_numbers_are_not_one(library):
+    with pytest.raises(e3d.InvalidArgumentError, match="intensity must be"):
+        e3d.PointLight(intensity=arrays_of(library)([1.0]))
+
+
+@pytest.mark.parametrize("name", TAKERS)
+def test_arrays_of_jax(name):
+    call, array = TAKERS[name]
+    if name == "Canvas":
+        pytest.skip("arrays of JAX cannot be drawn into")
+    given = arrays_of("jax.numpy")(array)
+    assert np.array_equal(np.asarray(call(given)), np.asarray(call(np.asarray(given))))

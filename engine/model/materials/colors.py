@@ -17,6 +17,7 @@ from typing import Any, cast, get_args
 import numpy as np
 
 from ..._native.loaders import frozen
+from ...base.foreign_arrays import is_foreign_array, without_axes
 from ...base.numbers import as_array, real, shown
 from ...choices import Color, ColorLike, ColorSpace, SurfaceColor
 from ...errors import InvalidArgumentError
@@ -151,7 +152,7 @@ def with_alpha(rgb: Color, alpha: float) -> SurfaceColor:
 
 
 def _components(value: Any, what: str) -> tuple[Any, ...]:
-    components = tuple(_scalar(component) for component in _sequence(value, what))
+    components = tuple(_scalar(component, what) for component in _sequence(value, what))
     for component in components:
         if not isinstance(component, numbers.Real) or isinstance(component, bool):
             raise InvalidArgumentError(f"{what} is not made of numbers: {value!r}")
@@ -334,14 +335,16 @@ def is_8bit(components: Sequence[Any]) -> bool:
 def _sequence(value: Any, what: str) -> list[Any]:
     try:
         if not isinstance(value, bytes):
-            return list(value)
+            is_array = hasattr(value, "__array_interface__") or is_foreign_array(value)
+            return list(as_array(value, what) if is_array else value)
     except TypeError:
         pass
     raise InvalidArgumentError(f"{what} must be a colour, such as (255, 128, 0): {value!r}")
 
 
-def _scalar(component: Any) -> Any:
+def _scalar(component: Any, what: str) -> Any:
     """Return a Python scalar, except for uint8, whose type marks an 8-bit value."""
+    component = without_axes(component, what)
     if isinstance(component, np.generic) and not isinstance(component, np.uint8):
         return component.item()
     return component

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import engine3d as e3d
 from engine3d.base.files import atomic_write as module
 from engine3d.base.files.atomic_write import atomic_write
 from engine3d.base.files.making_folders import make_folder_of
@@ -184,3 +185,19 @@ def test_every_file_is_written_by_this_module_and_below_its_folder():
                 direct.add(name)
     assert followed - {"base/files/atomic_write.py"} == NAMED_BY_OTHERS
     assert direct == {"apps/cli/__init__.py"}  # which opens what leads nowhere
+
+
+def test_an_address_is_no_place_to_write_to(tmp_path, monkeypatch):
+    frame = e3d.render(e3d.box(), size=(8, 6))
+    for write in (
+        lambda url: e3d.save_mesh(e3d.box(), f"{url}.obj"),
+        lambda url: e3d.Scene().save(f"{url}.e3d.json"),
+        lambda url: frame.save(f"{url}.png"),
+        lambda url: e3d.save_animation([frame], f"{url}.gif"),
+    ):
+        with pytest.raises(e3d.FileAccessError, match="cannot write to an address: give a path"):
+            write("https://host/a")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "s3:" / "bucket").mkdir(parents=True)  # a folder of that name can be meant
+    frame.save("s3://bucket/a.png")
+    assert (tmp_path / "s3:" / "bucket" / "a.png").is_file()

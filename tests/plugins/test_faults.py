@@ -38,6 +38,10 @@ def vox(tmp_path):
         ("def read(file): return [1]", "returned list, not a Mesh or a Scene"),
         ("def read(file): pass", "returned nothing, not a Mesh or a Scene"),
         ("def read(file): return {}['a']", r"raised KeyError: 'a' \(demo_0_.*\.py:1\)"),
+        (
+            "class Mute(Exception):\n    def __str__(self): 1 / 0\ndef read(file): raise Mute",
+            r"raised Mute \(demo_0_.*\.py:3\)",
+        ),
         ("def read(): pass", r"raised TypeError: read\(\) takes 0 positional"),
         ("def read(file): pass\nread.up = 'Z'", "says up = 'Z': it must be one of"),
         ("def read(file): pass\nread.engine3d_api = 2", "needs the contract 2 of plug-ins, but"),
@@ -73,6 +77,13 @@ def test_the_original_is_the_cause(package, vox):
     with pytest.raises(e3d.FileFormatError) as told:
         e3d.load_mesh(vox)
     assert isinstance(told.value.__cause__, KeyError)
+
+
+@pytest.mark.parametrize("status", [-1, 256, "'no'"])
+def test_what_is_no_exit_status_is_an_error(package, capsys, status):
+    package(f"def add(parser): return lambda args: {status}", commands={"go": "{0}:add"})
+    assert main(["go"]) == 1
+    assert "demo-0 1.2 (entry point 'go' of engine3d.commands) returned" in capsys.readouterr().err
 
 
 def test_an_interrupt_passes(package, vox):

@@ -16,6 +16,7 @@ from ...errors import PluginError, warn
 from .commands import COMMANDS, Command
 from .plugin_switch import NO_PLUGINS
 
+_MOST = 255  # the system keeps no more of an exit status
 # Options that `make_parser` adds after a plug-in's own.
 _SHARED = ("--quiet", NO_PLUGINS)
 
@@ -66,4 +67,6 @@ def _run(plugin: Plugin, run: Callable, args: argparse.Namespace) -> int:
         status = run(args)
     if status is not None and type(status) is not int:
         raise fault(plugin, f"returned {type(status).__name__}, not an exit status")
+    if status is not None and not 0 <= status <= _MOST:
+        raise fault(plugin, f"returned {status}, but exit statuses are 0..{_MOST}")
     return status or 0

@@ -68,6 +68,8 @@ def checked_path(path: str | bytes | os.PathLike[str]) -> str:
         raise InvalidArgumentError(f"path must be a str or path-like, not {shown(path)}") from None
     if "\0" in decoded:
         raise FileAccessError("cannot write: the path holds a zero byte", decoded)
+    if "://" in decoded and not os.path.isdir(os.path.dirname(decoded)):
+        raise FileAccessError("cannot write to an address: give a path of this machine", decoded)
     return decoded
 
 

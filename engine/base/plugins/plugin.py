@@ -131,7 +131,10 @@ def fault(plugin: Plugin, what: str) -> PluginError:
 
 def told(error: BaseException) -> str:
     """Return another package's exception as one line."""
-    said = printable(" ".join(str(error).split())[:_SAID])
+    try:
+        said = printable(" ".join(str(error).split())[:_SAID])
+    except Exception:  # of a foreign __str__
+        said = ""
     if isinstance(error, ImportError) and said:
         return said
     return f"{type(error).__name__}: {said}" if said else type(error).__name__

@@ -24,6 +24,7 @@ from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools._distutils.sysconfig import get_python_inc
 from setuptools.command.build import build
 from setuptools.command.build_clib import build_clib
 from setuptools.command.build_ext import build_ext
@@ -33,7 +34,6 @@ from build_rules import (
     BUILD,
     GATEWAY_FLAGS,
     INCLUDE_DIRS,
-    IS_WINDOWS,
     SANITIZERS,
     STRIPPED,
     hardened_flags,
@@ -63,7 +63,7 @@ def requirements():
 
 
 # Untested: setuptools' own choice on Windows does not know the flags of gcc and clang.
-DEFAULT_COMPILER = "mingw32" if IS_WINDOWS else None
+DEFAULT_COMPILER = "mingw32" if os.name == "nt" else None
 
 # What to install, by the name of a system and by what is missing.
 COMPILERS = {
@@ -158,7 +158,7 @@ def prepare(compiler):
 
 def check_compiler(compiler):
     """Raise `CompilerError` unless a file compiles that includes what all need."""
-    includes = {f"-I{sysconfig.get_path(name)}" for name in ("include", "platinclude")}
+    includes = {f"-I{get_python_inc(plat_specific=specific)}" for specific in (False, True)}
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, "probe.c")
         source.write_text(PROBE, "utf-8")

@@ -34,6 +34,7 @@ from build_rules import (
     BUILD,
     GATEWAY_FLAGS,
     INCLUDE_DIRS,
+    IS_WINDOWS,
     SANITIZERS,
     STRIPPED,
     hardened_flags,
@@ -52,6 +53,12 @@ NATIVE = "engine3d._native"
 CORE_MODULE = f"{NATIVE}._core"
 # What Cython would otherwise write into every module, such as the code of memoryviews.
 COMMON_MODULE = f"{NATIVE}._common"
+# Modules of CPython's limited API serve all later versions, too: one wheel for each machine. Typed
+# memoryviews need that of 3.11. Interpreters without a global lock have no such API.
+OLDEST = (3, 11)
+IS_LIMITED = sys.version_info >= OLDEST and not sysconfig.get_config_var("Py_GIL_DISABLED")
+LIMITED_API = [("Py_LIMITED_API", f"0x{OLDEST[0]:02X}{OLDEST[1]:02X}0000")] if IS_LIMITED else []
+WHEEL = {"py_limited_api": f"cp{OLDEST[0]}{OLDEST[1]}"} if IS_LIMITED else {}
 # The kernels called one by one, for tests and benchmarks: built in place only, or on request.
 TESTING_MODULE = f"{NATIVE}.kernels_testing"
 
@@ -103,7 +110,8 @@ def extensions():
             name,
             sources,
             include_dirs=INCLUDE_DIRS,
-            define_macros=[("E3D_BUILD", f'"{BUILD}"')],
+            define_macros=[("E3D_BUILD", f'"{BUILD}"'), *LIMITED_API],
+            py_limited_api=IS_LIMITED,
             # build_ext lists the static libraries once more after these, so their order is free.
             libraries=[*(library for library, _ in static_libraries()), "m"],
             extra_compile_args=[*hardened_flags(), *GATEWAY_FLAGS.get(BUILD, [])],
@@ -267,6 +275,10 @@ class BuildExtensions(build_ext):
         return [*super().get_outputs(), *self.stubs]
 
     def copy_extensions_to_source(self):
+        # Those of a single version of Python, from an earlier build, would be imported instead.
+        for extension in self.extensions:
+            for path in Path("engine/_native").glob(f"{extension.name.rpartition('.')[2]}.*.so"):
+                path.unlink()
         super().copy_extensions_to_source()
         for stub in self.stubs:
             self.copy_file(stub, "engine/_native")
@@ -294,6 +306,11 @@ class BuildExtensions(build_ext):
             flags=extension.extra_compile_args,
         )
         extension.extra_objects.append(target)
+
+    def get_ext_filename(self, fullname):
+        # setuptools takes the name that the building machine's Python would look for.
+        name = super().get_ext_filename(fullname)
+        return f"{name.partition('.')[0]}.pyd" if IS_WINDOWS and IS_LIMITED else name
 
     def build_extension(self, extension):
         library = self.get_finalized_command("build_clib")
@@ -412,6 +429,7 @@ if __name__ == "__main__":
             "engine3d.data": SOURCE_ONLY,
         },
         install_requires=requirements(),
+        options={"bdist_wheel": WHEEL},
         libraries=static_libraries(),
         ext_modules=extensions(),
         cmdclass={

@@ -1,7 +1,8 @@
 """CPython for Windows, as far as a cross compiler has to know it: headers and an import library.
 
 In:  the headers of this Python, which for Windows differ by one file, pyconfig.h.
-Out: in a folder, headers for x86-64 Windows, and pythonXY.lib, which names what pythonXY.dll has.
+Out: in a folder, headers for x86-64 Windows, and python3.lib, which names what python3.dll has: the
+     limited API of every version of CPython. It names more, which no module of that API asks for.
 """
 
 import re
@@ -11,7 +12,7 @@ import sys
 import sysconfig
 from pathlib import Path
 
-LIBRARY = f"python{sys.version_info.major}{sys.version_info.minor}"
+LIBRARY = "python3"
 SIZES = {"SHORT": 2, "INT": 4, "LONG": 4, "LONG_LONG": 8, "FLOAT": 4, "DOUBLE": 8, "WCHAR_T": 2}
 SIZES |= dict.fromkeys(("VOID_P", "SIZE_T", "TIME_T", "UINTPTR_T", "FPOS_T", "HKEY"), 8)
 SIZES |= {"OFF_T": 4, "PID_T": 4, "PTHREAD_T": 8}
@@ -41,8 +42,13 @@ def write(folder):
 
 def exports(include):
     """Return what the headers say the library has, in the form of a definition file."""
+    return "".join(f"{name}{kind}\n" for name, kind in names(include).items())
+
+
+def names(include):
+    """Return the names that the headers declare; " DATA" for those of variables, else ""."""
     found = {}
     for header in sorted(include.rglob("*.h")):
         for kind, name in DECLARATION.findall(header.read_text("utf-8", "replace")):
             found[name] = " DATA" if kind == "DATA" else ""
-    return "".join(f"{name}{kind}\n" for name, kind in sorted(found.items()))
+    return found

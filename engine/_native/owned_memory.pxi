@@ -19,7 +19,7 @@ def read_bytes(readinto: Callable[[memoryview], int], Py_ssize_t size) -> bytes:
     bytes of a file.
     """
     data = PyBytes_FromStringAndSize(NULL, size)
-    cdef char *start = PyBytes_AS_STRING(data)
+    cdef char *start = PyBytes_AsString(data)
     e3d_want_large_pages(start, size)
     cdef Py_ssize_t done = 0, count
     while done < size:

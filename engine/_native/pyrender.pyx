@@ -6,7 +6,7 @@ Out: colours and depths, in the caller's arrays.
 Always: what a picture points to is held by it until the next `clear`; the GIL is released while it is drawn.
 """
 
-from cpython.bytearray cimport PyByteArray_AS_STRING
+from cpython.bytearray cimport PyByteArray_AsString
 from libc.stdint cimport int32_t, uint8_t
 from libc.stdlib cimport free, realloc
 from libc.string cimport memset
@@ -78,8 +78,8 @@ cdef class NativeShape:
         self.held = indices, positions, normals, uvs, colors
         if mode == E3D_PYR_TRIANGLES:
             self.calm = bytearray(self.draw.count)
-            self.draw.calm = <const uint8_t *>PyByteArray_AS_STRING(self.calm)
-            e3d_pyr_find_calm(&self.draw, <uint8_t *>PyByteArray_AS_STRING(self.calm))
+            self.draw.calm = <const uint8_t *>PyByteArray_AsString(self.calm)
+            e3d_pyr_find_calm(&self.draw, <uint8_t *>PyByteArray_AsString(self.calm))
 
 
 cdef class NativeTexture:

@@ -127,7 +127,7 @@ cdef class FormReader:
                     not 0 <= of < count):
                 raise InvalidArgumentError("a form does not fit its pattern")
             self.forms[k] = e3d_form(
-                PyBytes_AS_STRING(self.patterns[k]), <e3d_form_kind><int>kind, width, most, missing, of)
+                PyBytes_AsString(self.patterns[k]), <e3d_form_kind><int>kind, width, most, missing, of)
 
     def __dealloc__(self):
         cdef size_t k

@@ -185,9 +185,11 @@ def whole_number(value: int, what: str, least: int, most: int) -> int:
 
 def is_one_of(value: Any, allowed: Any) -> bool:
     """Return whether a value of any type is among the allowed ones."""
+    if isinstance(value, np.ndarray):  # its comparisons are arrays, or warnings
+        return False
     try:
         return bool(value in allowed)
-    except (TypeError, ValueError):  # not hashable, or an array
+    except (TypeError, ValueError):  # not hashable, or an array of another library
         return False
 
 

@@ -1,6 +1,7 @@
 """The build's own promises, tried with the real setup.py on a tree of a few tiny C files."""
 
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -93,7 +94,8 @@ def made_at(tree):
     """When each object, library, module and translated file of a build was made."""
     paths = [path for kind in ("o", "a", "c", "so") for path in tree.glob(f"build/**/*.{kind}")]
     return {
-        "/".join(path.parts[-2:]).split(".cpython")[0]: path.stat().st_mtime_ns for path in paths
+        re.sub(r"\.(cpython|abi3).*", "", "/".join(path.parts[-2:])): path.stat().st_mtime_ns
+        for path in paths
     }
 
 

@@ -8,12 +8,15 @@ import sys
 import tempfile
 from pathlib import Path
 
+from missing_here import skip_where_links_cannot_be_made
+
 
 def pytest_configure(config):
     # A shell starts its background jobs with SIGINT ignored, and their children inherit that: the
     # tests that interrupt a frame or a command would wait for its end.
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    skip_where_links_cannot_be_made()
     # The options of whoever runs the tests are none of the tests'.
     os.environ["XDG_CONFIG_HOME"] = os.devnull
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):

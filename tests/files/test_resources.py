@@ -2,6 +2,7 @@
 
 import gc
 import os
+import sys
 import time
 
 import numpy as np
@@ -106,7 +107,9 @@ def test_files_that_changed_are_loaded_again(folder):
         before = renderer.render(scene, camera).color
         paint(folder / "t.png", 60)
         path = os.path.realpath(folder)
-        assert set(resources.reload_changed()) == {f"{path}/m.obj", f"{path}/t.png"}
+        assert set(resources.reload_changed()) == {
+            os.path.join(path, name) for name in ("m.obj", "t.png")
+        }
         assert resources.reload_changed() == ()
         after = renderer.render(scene, camera).color
         assert texture.pixels[0, 0, 0] == 60
@@ -119,6 +122,7 @@ def test_files_that_changed_are_loaded_again(folder):
         assert scene.bounds[1, 0] == 5
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps no time of changes")
 @pytest.mark.parametrize("name", ["m.obj", "m.mtl", "t.png"])
 def test_a_change_that_keeps_size_and_time_is_found(folder, name):
     resources = e3d.resources.Resources()

@@ -18,7 +18,6 @@ import io
 import multiprocessing
 import os
 import random
-import resource
 import sys
 import tempfile
 import time
@@ -39,6 +38,7 @@ if __name__ == "__main__":
 import numpy as np
 from loaders.generating import GENERATORS, enlarged, mutated
 from loaders.seeds import FILES
+from missing_here import peak_memory as most_memory
 from PIL import Image
 from plain_picture import render
 from shared_corpus import CONFORMANCE
@@ -184,9 +184,9 @@ def peak_memory(result: list[int]):
     if before:
         _CLEAR_PEAK.write_text("5")
     else:
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10
+        before = most_memory()
     yield
-    after = _memory("VmHWM:") or resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10
+    after = _memory("VmHWM:") or most_memory()
     result.append(after - before)
 
 

@@ -2,12 +2,12 @@
 
 import importlib.util
 import json
-import resource
 import time
 import warnings
 
 import numpy as np
 import pytest
+from missing_here import peak_memory
 from shared_corpus import SHARED
 
 import engine3d as e3d
@@ -182,11 +182,11 @@ def test_materials_of_sound_files(case):
 @pytest.mark.parametrize("case", cases("broken", "hostile", "validator"))
 def test_broken_files(case):
     """Those that must be refused are; the others give a scene, with a warning where it is due."""
-    start, before = time.process_time(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    start, before = time.process_time(), peak_memory()
     found = loaded(e3d.load_scene, case)
     most = SECONDS_IF_LARGE if case["size"] > LARGE else SECONDS
     assert time.process_time() - start < SLACK * most
-    grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before << 10
+    grown = peak_memory() - before
     assert grown <= (64 << 20) + 100 * case["size"]
     # What reads more of a file finds no more fault with it.
     assert isinstance(loaded(describe, case), Engine3DError) == isinstance(found, Engine3DError)

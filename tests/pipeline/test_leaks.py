@@ -3,7 +3,6 @@
 import ctypes
 import gc
 import os
-import resource
 import sys
 import threading
 import weakref
@@ -15,6 +14,7 @@ from plain_picture import Renderer, render
 import engine3d as e3d
 from engine3d.rendering.draw_list import native_handles as native_handles
 
+resource = pytest.importorskip("resource", reason="reads /proc")
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
 LIBC = ctypes.CDLL(None)

@@ -97,6 +97,8 @@ def test_arrays_of_other_libraries_count_as_numpys(name, kind):
     if name in ("render", "Canvas") and kind is Interface:
         pytest.skip("what is drawn is told by its type")
     call, array = TAKERS[name]
+    if name == "Canvas" and not np.from_dlpack(kind(array)).flags.writeable:
+        pytest.skip("this NumPy makes arrays of other libraries read-only")
     assert np.array_equal(np.asarray(call(kind(array))), np.asarray(call(array)))
 
 

@@ -7,7 +7,6 @@ exactly what it held before, or (after SIGKILL, which nobody can answer) a tempo
 import contextlib
 import errno
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -22,6 +21,8 @@ from plain_picture import render
 import engine3d as e3d
 from engine3d.errors import FileAccessError
 from engine3d.io.output.animation_files import save_animation
+
+resource = pytest.importorskip("resource", reason="limits of POSIX")
 
 BEFORE = b"what was there before"
 LIMIT = 64  # bytes: less than any of these files

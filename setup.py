@@ -233,10 +233,11 @@ class BuildStaticLibraries(build_clib):
         # ar adds to an archive that exists: one made anew holds no object of a file since deleted.
         archive = Path(self.compiler.library_filename(name, output_dir=self.build_clib))
         objects = self.compiler.object_filenames(sources, output_dir=self.build_temp)
-        if not is_current(archive, objects, objects):
+        command = [*self.compiler.archiver, *objects]
+        if not is_current(archive, command, objects):
             archive.unlink(missing_ok=True)
             self.compiler.create_static_lib(objects, name, output_dir=self.build_clib)
-            note_command(archive, objects)
+            note_command(archive, command)
 
 
 class BuildExtensions(build_ext):
@@ -324,7 +325,11 @@ class BuildExtensions(build_ext):
             module, [*extension.extra_objects, *archives, "setup.py", "csrc/build_rules.py"]
         ):
             Path(module).unlink(missing_ok=True)
-        super().build_extension(extension)
+        try:
+            super().build_extension(extension)
+        except BaseException:
+            Path(module).unlink(missing_ok=True)  # a linker may leave an empty file
+            raise
 
 
 def run_in_parallel(function, jobs):

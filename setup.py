@@ -234,7 +234,7 @@ class BuildStaticLibraries(build_clib):
         archive = Path(self.compiler.library_filename(name, output_dir=self.build_clib))
         objects = self.compiler.object_filenames(sources, output_dir=self.build_temp)
         command = [*self.compiler.archiver, *objects]
-        if not is_current(archive, command, objects):
+        if not is_current(archive, objects, command):
             archive.unlink(missing_ok=True)
             self.compiler.create_static_lib(objects, name, output_dir=self.build_clib)
             note_command(archive, command)

@@ -20,7 +20,10 @@ SIZE = 256
 # references below, each round would take ten times as much.
 MOST_GROWTH = 200 << 20
 
-pytestmark = pytest.mark.slow
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="reads /proc"),
+]
 
 
 def resident():

@@ -3,10 +3,10 @@
 from itertools import product
 
 import pytest
+from kernels.calls import kernels_testing
 from plain_picture import Renderer
 
 import engine3d as e3d
-from engine3d._native.kernels_testing import plan_conditions, planned_items
 
 MODES = ("lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw")
 OUTPUTS = {
@@ -67,10 +67,10 @@ def asked_for(scene_facts, *, outputs=("color",), mode="lit", wireframe=None, hi
 def planned(facts):
     """What the conditions make of facts, as `frame.stats["plan"]` names it."""
     known = set(facts)
-    for item, needs, forbids in plan_conditions():
+    for item, needs, forbids in kernels_testing.plan_conditions():
         if known.issuperset(needs) and known.isdisjoint(forbids):
             known.add(item)
-    return tuple(name.lower() for name, _ in planned_items() if name in known)
+    return tuple(name.lower() for name, _ in kernels_testing.planned_items() if name in known)
 
 
 def check(renderer, scene, scene_facts, **options):

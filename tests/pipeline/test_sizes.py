@@ -20,6 +20,8 @@ def left_half():
 
 
 def free_memory():
+    if not hasattr(os, "sysconf"):
+        return 0  # Windows does not tell
     return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 

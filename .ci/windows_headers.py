@@ -1,7 +1,7 @@
 """CPython for Windows, as far as a cross compiler has to know it: headers and an import library.
 
 In:  the headers of this Python, which for Windows differ by one file, pyconfig.h.
-Out: in a folder, headers for x86-64 Windows, and python3.lib, which names what python3.dll has: the
+Out: in a folder, headers for 64-bit Windows, and python3.lib, which names what python3.dll has: the
      limited API of every version of CPython. It names more, which no module of that API asks for.
 """
 
@@ -16,7 +16,7 @@ LIBRARY = "python3"
 SIZES = {"SHORT": 2, "INT": 4, "LONG": 4, "LONG_LONG": 8, "FLOAT": 4, "DOUBLE": 8, "WCHAR_T": 2}
 SIZES |= dict.fromkeys(("VOID_P", "SIZE_T", "TIME_T", "UINTPTR_T", "FPOS_T", "HKEY"), 8)
 SIZES |= {"OFF_T": 4, "PID_T": 4, "PTHREAD_T": 8}
-# What CPython's headers ask of pyconfig.h, answered for Windows on x86-64.
+# What CPython's headers ask of pyconfig.h, answered for 64-bit Windows.
 DEFINED = ["MS_WINDOWS", "MS_WIN32", "MS_WIN64", "NT_THREADS", "Py_ENABLE_SHARED"]
 DEFINED += ["HAVE_DECLSPEC_DLL", "HAVE_STDDEF_H", "HAVE_STDINT_H", "HAVE_WCHAR_H", "WITH_PYMALLOC"]
 # As in PyAPI_FUNC(void) _Py_NO_RETURN Py_Exit(int); a type may hold parentheses.
@@ -25,8 +25,11 @@ DECLARATION = re.compile(
 )
 
 
-def write(folder):
-    """Write the headers into folder/include, and the import library into folder."""
+def write(folder, machine):
+    """Write the headers into folder/include, and the import library into folder.
+
+    machine: as dlltool names it.
+    """
     include = Path(folder, "include")
     shutil.copytree(sysconfig.get_path("include"), include)
     lines = [f"#define {name} 1" for name in DEFINED]
@@ -36,7 +39,7 @@ def write(folder):
     definition = Path(folder, f"{LIBRARY}.def")
     definition.write_text(f"LIBRARY {LIBRARY}.dll\nEXPORTS\n{exports(include)}", "utf-8")
     library = Path(folder, f"{LIBRARY}.lib")
-    command = [sys.executable, "-m", "ziglang", "dlltool", "-m", "i386:x86-64"]
+    command = [sys.executable, "-m", "ziglang", "dlltool", "-m", machine]
     subprocess.run([*command, "-d", str(definition), "-l", str(library)], check=True)
 
 

@@ -50,7 +50,7 @@ def test_a_module_for_windows_is_named_so_and_sees_its_headers(source_tree, tmp_
     release = rules(source_tree, ".ci/release")
     ran = []
     monkeypatch.setattr(release["subprocess"], "run", lambda command, **_: ran.append(command))
-    release["write_settings"]("win_amd64", tmp_path)
+    release["write_settings"]("win-amd64", tmp_path)
     made = runpy.run_path(str(tmp_path / f"{release['SETTINGS']}.py"))["build_time_vars"]
     assert made["EXT_SUFFIX"] == ".pyd"
     config = (tmp_path / "include" / "pyconfig.h").read_text()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...base.calls import checks_types
+from ...base.calls import checks_types, keywords_of
 from ...base.validation import flag
 from ...errors import FileFormatError, InvalidArgumentError, warn
 from ...model.geometry.creases import CREASE_ANGLE, check_crease_angle
@@ -22,6 +22,7 @@ from .documents import Document
 from .extents import extent_warnings
 from .linked_files import checked_root
 from .reader_registry import find_reader
+from .robot_options import RobotOptions, check_robot, with_robot
 from .sources import File, Source, read_source
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ def load_mesh(
     progress: Progress | None = None,
     crease_angle: float = CREASE_ANGLE,
     root: str | os.PathLike[str] | None = None,
+    **robot: Unpack[RobotOptions],
 ) -> Mesh:
     """Load a model as one mesh with its materials, in the file's coordinates.
 
@@ -66,7 +68,11 @@ def load_mesh(
     root : path-like, optional
         A second folder, besides the model's own, in which files named in the model are allowed,
         such as images in ``../images``. Relative names are also searched there. For a model given
-        as bytes, it is the only folder searched.
+        as bytes, it is the only folder searched. For a robot, it may hold packages.
+    **robot
+        Of robots (URDF): ``joints``, a dict of names and values, where joints stand (radians of
+        turning, metres of sliding ones, others as in `Robot.set_joint`; 0 by default); and
+        ``shapes``, ``"visual"`` (the default), ``"collision"`` or ``"both"``: what shows the links.
 
     Returns
     -------
@@ -86,6 +92,7 @@ def load_mesh(
     root = checked_root(root)
     with read_source(path) as source:
         source = source._replace(crease_angle=check_crease_angle(crease_angle), root=root)
+        source = with_robot(source, "load_mesh", keywords_of(load_mesh), robot)
         document = _read_document(source, format, progress, split=False)
     return whole_mesh(document, source, format)
 
@@ -100,6 +107,7 @@ def load_document(
     crease_angle: float = CREASE_ANGLE,
     values: bool = True,
     root: str | os.PathLike[str] | None = None,
+    **robot: Unpack[RobotOptions],
 ) -> Document:
     """Load everything in a model file: its objects one by one, lights and cameras.
 
@@ -121,6 +129,7 @@ def load_document(
             values=flag(values, "values"),
             root=root,
         )
+        source = with_robot(source, "load_document", keywords_of(load_document), robot)
         if companion is not None:
             source = source._replace(companion=companion)
         document = _read_document(source, format, progress, split=True)
@@ -232,6 +241,7 @@ def _read_document(
     if progress is not None:
         source = source._replace(progress=progress)
     document = document_of(source, format, split=split)
+    check_robot(source, document)
     for message in document.warnings:
         warn(message)
     return document

@@ -33,6 +33,7 @@ from .surroundings import Surroundings
 
 if TYPE_CHECKING:
     from ..motion.clips import AnimationClip
+    from ..motion.robots import Robot
     from .animation import Animator
     from .nodes import SceneObject
 
@@ -72,6 +73,8 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         Fog, in modes "lit" and "unlit".
     animations : dict of str to AnimationClip
         The file's clips by name, for an `AnimationPlayer`.
+    robots : dict of str to Robot
+        The file's robots by name, whose joints move nodes.
     warnings : list of str
         The loader's warnings: what it omitted or replaced.
     animator : Animator or None
@@ -83,6 +86,7 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
     InvalidArgumentError
     """
 
+    robots: dict[str, Robot]
     warnings: list[str]
     if TYPE_CHECKING:  # for the engine's own parts; undeclared, so that programs can't assign it
         data: SceneData
@@ -98,6 +102,7 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         object.__setattr__(self, "data", SceneData())
         self.animations = {}
         self._animator: Animator | None = None
+        self.robots = {}
         self.warnings = []
 
     @property

@@ -1,0 +1,216 @@
+"""The scene of a physics client: what PyBullet's bodies look like now.
+
+In: a client's number. Out: a `Scene` with a node for each visual shape, where its link is. PyBullet
+is asked anew for every picture, so that nothing is drawn that is no longer there; only what it does
+not tell (textures, which shape of a link was painted, vertices) is noted from calls.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...base import linalg
+from ...errors import warn
+from ...model.geometry.mesh import Mesh
+from ...model.materials.textures import Texture
+from ...model.scene.cameras import Camera
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ...model.scene.selection import NodeSelection
+from ._shapes import Shape, ShapeForm, form_of
+
+# Of getDynamicsInfo: the pose of the inertial frame, and the kind of body.
+_INERTIAL, _KIND = slice(3, 5), 10
+_SOFT = 3
+# Of getLinkState: the pose of the link's own frame.
+_FRAME = slice(4, 6)
+_LINK_SHIFT = 24
+
+
+class _Body:
+    """The shapes of a body.
+
+    Attributes
+    ----------
+    forms : tuple
+        What it was made from; another body may have its number later.
+    rows : list
+        The last row of visual shape data of each shape.
+    """
+
+    def __init__(
+        self, forms: tuple[Any, ...], rows: tuple[Any, ...], given: dict[int, list[Mesh]]
+    ) -> None:
+        self.forms, self.colors = forms, [row[7] for row in rows]
+        given = {link: list(meshes) for link, meshes in given.items()}
+        self.shapes: list[Shape] = []
+        for row in rows:
+            form = form_of(row)
+            meshes = given.get(form.link) if form.kind == 5 and not form.file else None
+            self.shapes.append(Shape(form, row[7], meshes.pop(0) if meshes else None))
+        self.links = sorted({shape.form.link for shape in self.shapes} - {-1})
+        self.is_shown = False
+
+    def locals(self) -> list[np.ndarray]:
+        """Return, for each drawn shape, frame-from-shape; bases have their inertial frame."""
+        place = self.forms[0]
+        turned = linalg.quaternion_to_matrix(place[1])
+        base = linalg.inverse(linalg.multiply(linalg.translation(place[0]), turned))
+        return [
+            linalg.multiply(base, shape.form.frame) if shape.form.link < 0 else shape.form.frame
+            for shape in self.drawn()
+        ]
+
+    def drawn(self) -> list[Shape]:
+        return [shape for shape in self.shapes if shape.node is not None]
+
+
+class World:
+    """The scene of a client.
+
+    Parameters
+    ----------
+    bullet : module
+        pybullet, with its own functions.
+    client : int
+
+    Attributes
+    ----------
+    scene : Scene
+    textures : dict of int to Texture
+        Those that were loaded, by pybullet's number.
+    folders : list of str
+        Where files are looked for, the last one first.
+    """
+
+    def __init__(self, bullet: Any, client: int) -> None:
+        self._bullet, self._client = bullet, client
+        self.scene = Scene(background=None, ambient=(0, 0, 0))
+        #: Its matrix is clip-from-world: the node stays where the world's origin is.
+        self.camera = Camera(np.eye(4))
+        self.viewpoint = self.scene.add(self.camera)
+        self.textures: dict[int, Texture] = {}
+        self.folders: list[str] = []
+        #: Meshes of vertices: by number of the visual shape, and by body and link.
+        self.visuals: dict[int, Mesh] = {}
+        self.given: dict[int, dict[int, list[Mesh]]] = {}
+        self._bodies: dict[int, _Body] = {}
+        self._is_new = True
+        self._selection: NodeSelection | None = None
+        self._locals = np.zeros((0, 4, 4))
+        self._frames = np.zeros(0, np.int64)
+        self.masks = np.zeros(0, np.int32)
+
+    def clear(self) -> None:
+        """Forget all bodies, shapes and textures; folders stay."""
+        for uid in list(self._bodies):
+            self._drop(uid)
+        self.textures.clear()
+        self.visuals.clear()
+        self.given.clear()
+
+    def body(self, uid: int) -> _Body | None:
+        """Return the shapes of a body as they are now; None if it has none that are drawn."""
+        ask = {"physicsClientId": self._client}
+        rows = self._bullet.getVisualShapeData(uid, **ask)
+        dynamics = self._bullet.getDynamicsInfo(uid, -1, **ask)
+        forms = (dynamics[_INERTIAL], *(row[:7] for row in rows))
+        body = self._bodies.get(uid)
+        if body is None or body.forms != forms:
+            self._drop(uid)
+            if dynamics[_KIND] == _SOFT:
+                warn("soft bodies of PyBullet are not drawn")
+                rows = ()
+            body = self._bodies[uid] = _Body(forms, rows, self.given.get(uid, {}))
+            self._is_new = True
+        for number, row in enumerate(rows[: len(body.shapes)]):
+            if row[7] != body.colors[number]:
+                body.colors[number] = row[7]
+                body.shapes[number].paint(row[7])
+        return body
+
+    def paint(self, uid: int, link: int, place: int, color: tuple[float, ...]) -> None:
+        """Paint shapes of a link: all, or one by its place in the link.
+
+        PyBullet's data tells the colour for all of them.
+        """
+        body = self._bodies[uid]
+        shapes = [shape for shape in body.shapes if shape.form.link == link]
+        for number, shape in enumerate(body.shapes):
+            if shape.form.link == link:
+                body.colors[number] = color
+        for shape in shapes if place < 0 else shapes[place : place + 1]:
+            shape.paint(color)
+
+    def dress(self, uid: int, link: int, place: int, texture: Texture | None) -> None:
+        """Give shapes of a link a texture, or none; see `paint`."""
+        shapes = [shape for shape in self._bodies[uid].shapes if shape.form.link == link]
+        for shape in shapes if place < 0 else shapes[place : place + 1]:
+            shape.dress(texture)
+
+    def hidden(self) -> list[Node]:
+        """Return the nodes that alpha 0 hides."""
+        shapes = (shape for body in self._bodies.values() for shape in body.drawn())
+        return [shape.node for shape in shapes if shape.color[3] == 0.0]
+
+    def update(self) -> None:
+        """Bring the scene to the present state of all bodies."""
+        bullet, ask = self._bullet, {"physicsClientId": self._client}
+        uids = [bullet.getBodyUniqueId(k, **ask) for k in range(bullet.getNumBodies(**ask))]
+        for uid in set(self._bodies) - set(uids):
+            self._drop(uid)
+        bodies = [(uid, self.body(uid)) for uid in uids]
+        if self._is_new:
+            self._place(bodies)
+        frames: list[tuple[float, ...]] = []
+        for uid, body in bodies:
+            if body.is_drawn:
+                where, turned = bullet.getBasePositionAndOrientation(uid, **ask)
+                frames.append((*where, *turned))
+                if body.links:
+                    states = bullet.getLinkStates(uid, body.links, **ask)
+                    frames += [(*state[4], *state[5]) for state in states]
+        if not frames or self._selection is None:
+            return
+        rows = np.array(frames)
+        poses = linalg.quaternion_to_matrix(rows[:, 3:])
+        poses[:, :3, 3] = rows[:, :3]
+        self._selection.poses = linalg.multiply(poses[self._frames], self._locals)
+
+    def _place(self, bodies: list[tuple[int, Any]]) -> None:
+        """Add the nodes of new bodies, and note which frame each node follows."""
+        nodes, places, frames, masks, count = [], [], [], {}, 0
+        for uid, body in bodies:
+            for shape in () if body.is_shown else body.shapes:
+                shape.show(self.scene, tuple(self.folders[::-1]))
+            body.is_shown = True
+            drawn = body.drawn()
+            body.is_drawn = bool(drawn)
+            if not drawn:
+                continue
+            number_of = {-1: count, **{link: count + 1 + k for k, link in enumerate(body.links)}}
+            count += len(number_of)
+            nodes += [shape.node for shape in drawn]
+            places += body.locals()
+            frames += [number_of[shape.form.link] for shape in drawn]
+            for shape in drawn:
+                masks[shape.node.id] = uid + ((shape.form.link + 1) << _LINK_SHIFT)
+        self._selection = self.scene.select(nodes) if nodes else None
+        self._locals = np.array(places).reshape(-1, 4, 4)
+        self._frames = np.array(frames, np.int64)
+        # The last one is of the background, whose object ID is -1.
+        table = np.full(max(masks, default=-1) + 2, -1, np.int64)
+        table[list(masks)] = list(masks.values())
+        self.masks = table.astype(np.int32)
+        self._is_new = False
+
+    def _drop(self, uid: int) -> None:
+        body = self._bodies.pop(uid, None)
+        for shape in () if body is None else body.drawn():
+            self.scene.remove(shape.node)
+        self._is_new = self._is_new or body is not None
+
+
+__all__ = ["ShapeForm", "World"]

@@ -44,6 +44,12 @@ class Light:
         return replace(self, **{name: held for name, held in values.items() if held is not None})
 
     @property
+    def is_plain(self) -> bool:
+        """Whether it is white, and no colour becomes brighter than its surface's."""
+        parts = self.ambient, self.diffuse, self.specular
+        return self.color == (1.0, 1.0, 1.0) and sum(parts) <= 1.0
+
+    @property
     def unit(self) -> np.ndarray:
         """The direction at length 1, (3,) float64."""
         return linalg.normalize(self.direction)

@@ -19,8 +19,9 @@ from ._world import World
 
 # A shadow leaves this much of the light; a surface this much nearer than the map is lit.
 _SHADE, _BIAS = 0.8, 0.05
-_MOST_RENDERERS = 4
-_OUTPUTS = ("object_id", "ndc_depth", "world_normal", "albedo")
+_MOST_SIZES = 4
+_WHITE = np.uint32(0xFFFFFFFF)
+_OUTPUTS = ("color", "object_id", "ndc_depth", "world_normal")
 
 
 class Picture(NamedTuple):
@@ -40,11 +41,18 @@ class Picture(NamedTuple):
     masks: np.ndarray
 
 
+class _Engines(NamedTuple):
+    """Renderers of a size: of the picture, and of the shadow map, which culls other faces."""
+
+    picture: Renderer
+    shadows: Renderer
+
+
 class Painter:
     """Draws pictures; keeps the memory of the last few sizes."""
 
     def __init__(self) -> None:
-        self._renderers: dict[tuple[int, int], Renderer] = {}
+        self._engines: dict[tuple[int, int], _Engines] = {}
 
     def draw(
         self,
@@ -53,6 +61,7 @@ class Painter:
         projection: np.ndarray,
         view: np.ndarray,
         light: Light,
+        with_links: bool,
     ) -> Picture:
         """Return a picture of a world that is up to date.
 
@@ -62,28 +71,35 @@ class Painter:
         size : (int, int)
         projection, view : (4, 4) float64
         light : Light
+        with_links : bool
+            Whether masks tell links, too.
         """
-        engine, shade, shadows = self._engine(size), None, None
+        engines, shadows = self._of_size(size), None
         if light.shadow:
-            shadows = _shadow_map(engine, world, size, projection, light)
+            shadows = _shadow_map(engines.shadows, world, size, projection, light)
         world.camera.matrix = linalg.multiply(_shifted(projection, size), view)
         outputs = _OUTPUTS if shadows is None else (*_OUTPUTS, "world_position")
-        frame = engine.render(world.scene, camera=world.viewpoint, outputs=outputs, cull="back")
+        frame = engines.picture.render(
+            world.scene, camera=world.viewpoint, outputs=outputs, cull="back", mode="unlit"
+        )
+        shade = None
         if shadows is not None:
             from_light = linalg.multiply(projection, light.view())
             shade = _shade(shadows, frame.world_position, from_light)
         shown = frame.object_id
-        colors = _lit(frame.albedo, frame.world_normal, light, shade)
-        colors[shown < 0] = 255
+        colors = _lit(frame.color, frame.world_normal, light, shade)
+        np.copyto(colors.view(np.uint32)[..., 0], _WHITE, where=shown < 0)
         depths = _window_depths(frame.ndc_depth, projection)
-        return Picture(colors, depths, world.masks[shown])
+        return Picture(colors, depths, world.masks(with_links)[shown])
 
-    def _engine(self, size: tuple[int, int]) -> Renderer:
-        engine = self._renderers.pop(size, None) or Renderer(size, color_space="linear")
-        self._renderers[size] = engine
-        if len(self._renderers) > _MOST_RENDERERS:
-            del self._renderers[next(iter(self._renderers))]
-        return engine
+    def _of_size(self, size: tuple[int, int]) -> _Engines:
+        engines = self._engines.pop(size, None)
+        if engines is None:
+            engines = _Engines(*(Renderer(size, color_space="linear") for _ in _Engines._fields))
+        self._engines[size] = engines
+        if len(self._engines) > _MOST_SIZES:
+            del self._engines[next(iter(self._engines))]
+        return engines
 
 
 def _shifted(projection: np.ndarray, size: tuple[int, int]) -> np.ndarray:
@@ -117,39 +133,50 @@ def _window_depths(depths: np.ndarray, projection: np.ndarray) -> np.ndarray:
 
 
 def _lit(
-    albedo: np.ndarray, normals: np.ndarray, light: Light, shade: np.ndarray | None
+    own: np.ndarray, normals: np.ndarray, light: Light, shade: np.ndarray | None
 ) -> np.ndarray:
-    """Return colours with alpha, (H, W, 4) uint8.
+    """Return surfaces' own colours in light, with alpha 255, (H, W, 4) uint8.
 
-    Each is ``color * (ambient + shade * (diffuse * n·l + specular * max(r_z, 0)²) * light)``, cut
-    to a whole number; r is the light's direction mirrored by the normal, and z the world's.
+    Each is ``own * (ambient + shade * (diffuse * n·l + specular * max(r_z, 0)²) * light)``, cut to
+    a whole number; r is the light's direction mirrored by the normal, and z the world's.
     """
-    x, y, z = (np.float32(part) for part in light.unit)
-    facing = normals[..., 0] * x
-    facing += normals[..., 1] * y
-    facing += normals[..., 2] * z
-    mirrored = normals[..., 2] * facing
-    mirrored *= np.float32(2.0)
-    mirrored -= z
-    np.maximum(mirrored, 0.0, out=mirrored)
-    mirrored *= mirrored
-    mirrored *= np.float32(light.specular)
-    np.maximum(facing, 0.0, out=facing)
-    facing *= np.float32(light.diffuse)
-    facing += mirrored
+    colors = np.empty(own.shape, np.uint8)
+    colors[..., 3] = 255
+    facing = _reflected(normals, light)
     if shade is not None:
         facing *= shade
-    colors = np.empty((*facing.shape, 4), np.uint8)
-    colors[..., 3] = 255
+    if light.is_plain:
+        facing += np.float32(light.ambient)
+        lit = facing[..., np.newaxis]
+        np.multiply(own[..., :3], lit, out=colors[..., :3], casting="unsafe")
+        return colors
     for channel, strength in enumerate(light.color):
-        # TinyRenderer cuts the surface's own colour to whole numbers, too.
-        own = np.floor(albedo[..., channel] * np.float32(255.0) + np.float32(0.002))
         lit = facing * np.float32(strength)
         lit += np.float32(light.ambient)
-        lit *= own
+        lit *= own[..., channel]
         np.clip(lit, 0.0, 255.0, out=lit)
         colors[..., channel] = lit
     return colors
+
+
+def _reflected(normals: np.ndarray, light: Light) -> np.ndarray:
+    """Return the diffuse and the specular share of light, (H, W) float32."""
+    x, y, z = (np.float32(part) for part in light.unit)
+    upward = normals[..., 2]
+    facing, other = normals[..., 0] * x, normals[..., 1] * y
+    facing += other
+    np.multiply(upward, z, out=other)
+    facing += other
+    np.multiply(upward, facing, out=other)
+    other *= np.float32(2.0)
+    other -= z
+    np.maximum(other, 0.0, out=other)
+    other *= other
+    other *= np.float32(light.specular)
+    np.maximum(facing, 0.0, out=facing)
+    facing *= np.float32(light.diffuse)
+    facing += other
+    return facing
 
 
 def _shadow_map(
@@ -174,13 +201,23 @@ def _shade(shadows: np.ndarray, positions: np.ndarray, light_clip: np.ndarray) -
     height, width = shadows.shape
     x, y, z, w = (_row(positions, row) for row in light_clip)
     with np.errstate(all="ignore"):
-        across = (x / w + 1.0) * (0.5 * width)
-        up = (y / w + 1.0) * (0.5 * height)
-    columns = np.clip(np.nan_to_num(across), 0, width - 1).astype(np.int32)
-    rows = (height - 1) - np.clip(np.nan_to_num(up), 0, height - 1).astype(np.int32)
-    nearest = shadows[rows, columns]
-    is_lit = nearest > (z + w) * np.float32(0.5) - np.float32(_BIAS)
+        place = ((height - 1) - _texel(y, w, height)) * width  # the lowest row is the last one
+        place += _texel(x, w, width)
+    z += w
+    z *= np.float32(0.5)
+    z -= np.float32(_BIAS)
+    is_lit = shadows.ravel()[place] > z
     return np.where(is_lit, np.float32(1.0), np.float32(_SHADE))
+
+
+def _texel(along: np.ndarray, w: np.ndarray, count: int) -> np.ndarray:
+    """Return which of ``count`` texels coordinates in clip space are in, the nearest if in none."""
+    place = along / w
+    place += np.float32(1.0)
+    place *= np.float32(0.5 * count)
+    np.fmin(place, count - 1, out=place)  # unlike clip, these pass over NaN
+    np.fmax(place, 0.0, out=place)
+    return place.astype(np.int32)
 
 
 def _row(positions: np.ndarray, row: np.ndarray) -> np.ndarray:

@@ -6,6 +6,7 @@ its own, so that colours and textures change at once. Meshes share their arrays.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -105,8 +106,10 @@ class Shape:
 
     def _renew(self) -> None:
         rgb = [min(max(float(part), 0.0), 1.0) for part in self.color[:3]]
-        self._material.color = linear(*rgb)
         self._material.texture = self._own if self._is_dressed else self._other
+        if self._material.texture is None:  # TinyRenderer cuts colours to whole codes
+            rgb = [math.floor(255.0 * part + 1e-4) / 255.0 for part in rgb]
+        self._material.color = linear(*rgb)
         if self.node is not None:
             self.node.visible = self.color[3] != 0.0
 

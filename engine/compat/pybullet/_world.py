@@ -7,6 +7,7 @@ not tell (textures, which shape of a link was painted, vertices) is noted from c
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -19,14 +20,16 @@ from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...model.scene.selection import NodeSelection
-from ._shapes import Shape, ShapeForm, form_of
+from ._shapes import Shape, form_of
 
 # Of getDynamicsInfo: the pose of the inertial frame, and the kind of body.
 _INERTIAL, _KIND = slice(3, 5), 10
 _SOFT = 3
-# Of getLinkState: the pose of the link's own frame.
-_FRAME = slice(4, 6)
+# Masks have the body in the lower bits, and the link, counted from the base, in the upper ones.
 _LINK_SHIFT = 24
+_BODY = (1 << _LINK_SHIFT) - 1
+# Of a row of visual shape data.
+_COLOR = 7
 
 
 class _Body:
@@ -34,16 +37,21 @@ class _Body:
 
     Attributes
     ----------
-    forms : tuple
-        What it was made from; another body may have its number later.
-    rows : list
-        The last row of visual shape data of each shape.
+    place : tuple
+        The pose of the base's inertial frame.
+    rows : tuple
+        The visual shape data as last seen.
+    shapes : list of Shape
+    links : list of int
+        The links that have shapes, without the base.
+    is_shown : bool
+        Whether the shapes have their nodes.
     """
 
     def __init__(
-        self, forms: tuple[Any, ...], rows: tuple[Any, ...], given: dict[int, list[Mesh]]
+        self, place: tuple[Any, ...], rows: tuple[Any, ...], given: dict[int, list[Mesh]]
     ) -> None:
-        self.forms, self.colors = forms, [row[7] for row in rows]
+        self.place, self.rows = place, rows
         given = {link: list(meshes) for link, meshes in given.items()}
         self.shapes: list[Shape] = []
         for row in rows:
@@ -53,17 +61,38 @@ class _Body:
         self.links = sorted({shape.form.link for shape in self.shapes} - {-1})
         self.is_shown = False
 
+    def is_of(self, place: tuple[Any, ...], rows: tuple[Any, ...]) -> bool:
+        """Return whether this may be the body of that data, if colours may have changed."""
+        forms = (row[:_COLOR] for row in self.rows), (row[:_COLOR] for row in rows)
+        return place == self.place and all(one == other for one, other in zip_longest(*forms))
+
+    def paint(self, rows: tuple[Any, ...]) -> None:
+        """Give each shape the colour of its row, if that one is new."""
+        for shape, old, new in zip(self.shapes, self.rows, rows, strict=True):
+            if old[_COLOR] != new[_COLOR]:
+                shape.paint(new[_COLOR])
+        self.rows = rows
+
+    def of_link(self, link: int, place: int) -> list[Shape]:
+        """Return the shapes of a link: all, or one by its place among them."""
+        shapes = [shape for shape in self.shapes if shape.form.link == link]
+        return shapes if place < 0 else shapes[place : place + 1]
+
     def locals(self) -> list[np.ndarray]:
         """Return, for each drawn shape, frame-from-shape; bases have their inertial frame."""
-        place = self.forms[0]
-        turned = linalg.quaternion_to_matrix(place[1])
-        base = linalg.inverse(linalg.multiply(linalg.translation(place[0]), turned))
+        turned = linalg.quaternion_to_matrix(self.place[1])
+        base = linalg.inverse(linalg.multiply(linalg.translation(self.place[0]), turned))
         return [
             linalg.multiply(base, shape.form.frame) if shape.form.link < 0 else shape.form.frame
             for shape in self.drawn()
         ]
 
+    def leave_out(self) -> None:
+        """Draw none of the shapes."""
+        self.is_shown = True
+
     def drawn(self) -> list[Shape]:
+        """Return the shapes that have nodes."""
         return [shape for shape in self.shapes if shape.node is not None]
 
 
@@ -93,7 +122,7 @@ class World:
         self.viewpoint = self.scene.add(self.camera)
         self.textures: dict[int, Texture] = {}
         self.folders: list[str] = []
-        #: Meshes of vertices: by number of the visual shape, and by body and link.
+        # Meshes of vertices: by number of the visual shape, and by body and link.
         self.visuals: dict[int, Mesh] = {}
         self.given: dict[int, dict[int, list[Mesh]]] = {}
         self._bodies: dict[int, _Body] = {}
@@ -101,7 +130,7 @@ class World:
         self._selection: NodeSelection | None = None
         self._locals = np.zeros((0, 4, 4))
         self._frames = np.zeros(0, np.int64)
-        self.masks = np.zeros(0, np.int32)
+        self._masks = _tables({})
 
     def clear(self) -> None:
         """Forget all bodies, shapes and textures; folders stay."""
@@ -111,44 +140,42 @@ class World:
         self.visuals.clear()
         self.given.clear()
 
-    def body(self, uid: int) -> _Body | None:
-        """Return the shapes of a body as they are now; None if it has none that are drawn."""
+    def body(self, uid: int) -> _Body:
+        """Return the shapes of a body as they are now."""
         ask = {"physicsClientId": self._client}
         rows = self._bullet.getVisualShapeData(uid, **ask)
         dynamics = self._bullet.getDynamicsInfo(uid, -1, **ask)
-        forms = (dynamics[_INERTIAL], *(row[:7] for row in rows))
-        body = self._bodies.get(uid)
-        if body is None or body.forms != forms:
+        body, place = self._bodies.get(uid), dynamics[_INERTIAL]
+        if body is not None and body.rows == rows and body.place == place:
+            return body
+        if body is None or not body.is_of(place, rows):
             self._drop(uid)
+            body = self._bodies[uid] = _Body(place, rows, self.given.get(uid, {}))
             if dynamics[_KIND] == _SOFT:
                 warn("soft bodies of PyBullet are not drawn")
-                rows = ()
-            body = self._bodies[uid] = _Body(forms, rows, self.given.get(uid, {}))
+                body.leave_out()
             self._is_new = True
-        for number, row in enumerate(rows[: len(body.shapes)]):
-            if row[7] != body.colors[number]:
-                body.colors[number] = row[7]
-                body.shapes[number].paint(row[7])
+        body.paint(rows)
         return body
 
     def paint(self, uid: int, link: int, place: int, color: tuple[float, ...]) -> None:
-        """Paint shapes of a link: all, or one by its place in the link.
+        """Note that shapes of a link were painted: all, or one by its place in the link.
 
-        PyBullet's data tells the colour for all of them.
+        PyBullet's data then tells the colour for all of them.
         """
         body = self._bodies[uid]
-        shapes = [shape for shape in body.shapes if shape.form.link == link]
-        for number, shape in enumerate(body.shapes):
-            if shape.form.link == link:
-                body.colors[number] = color
-        for shape in shapes if place < 0 else shapes[place : place + 1]:
+        body.rows = self._bullet.getVisualShapeData(uid, physicsClientId=self._client)
+        for shape in body.of_link(link, place):
             shape.paint(color)
 
     def dress(self, uid: int, link: int, place: int, texture: Texture | None) -> None:
         """Give shapes of a link a texture, or none; see `paint`."""
-        shapes = [shape for shape in self._bodies[uid].shapes if shape.form.link == link]
-        for shape in shapes if place < 0 else shapes[place : place + 1]:
+        for shape in self._bodies[uid].of_link(link, place):
             shape.dress(texture)
+
+    def masks(self, with_links: bool) -> np.ndarray:
+        """Return the number that masks have for each object ID; the last one is the background."""
+        return self._masks[int(with_links)]
 
     def hidden(self) -> list[Node]:
         """Return the nodes that alpha 0 hides."""
@@ -170,7 +197,7 @@ class World:
                 where, turned = bullet.getBasePositionAndOrientation(uid, **ask)
                 frames.append((*where, *turned))
                 if body.links:
-                    states = bullet.getLinkStates(uid, body.links, **ask)
+                    states = bullet.getLinkStates(uid, body.links, 0, 1, **ask)
                     frames += [(*state[4], *state[5]) for state in states]
         if not frames or self._selection is None:
             return
@@ -200,10 +227,7 @@ class World:
         self._selection = self.scene.select(nodes) if nodes else None
         self._locals = np.array(places).reshape(-1, 4, 4)
         self._frames = np.array(frames, np.int64)
-        # The last one is of the background, whose object ID is -1.
-        table = np.full(max(masks, default=-1) + 2, -1, np.int64)
-        table[list(masks)] = list(masks.values())
-        self.masks = table.astype(np.int32)
+        self._masks = _tables(masks)
         self._is_new = False
 
     def _drop(self, uid: int) -> None:
@@ -213,4 +237,9 @@ class World:
         self._is_new = self._is_new or body is not None
 
 
-__all__ = ["ShapeForm", "World"]
+def _tables(masks: dict[int, int]) -> tuple[np.ndarray, np.ndarray]:
+    """Return numbers by object ID, (N,) int32 each: of bodies alone, and with links."""
+    table = np.full(max(masks, default=-1) + 2, -1, np.int64)
+    table[list(masks)] = list(masks.values())
+    whole = table.astype(np.int32)
+    return np.where(whole < 0, whole, whole & _BODY), whole

@@ -13,7 +13,6 @@ from ._worlds import client_of, matrix_of
 
 _MOST_SIDE = 16384
 _WITH_LINKS, _WITHOUT_MASKS, _PROJECTIVE = 1, 4, 2
-_BODY = (1 << 24) - 1
 
 
 def getCameraImage(  # the name is PyBullet's
@@ -95,14 +94,11 @@ def getCameraImage(  # the name is PyBullet's
     if chosen & _PROJECTIVE:
         warn("ER_USE_PROJECTIVE_TEXTURE is for OpenGL alone: left out, as TinyRenderer does")
     client.world.update()
-    picture = client.painter.draw(client.world, size, projection, view, client.light)
-    return *size, picture.colors, picture.depths, _masks(picture.masks, chosen)
-
-
-def _masks(masks: np.ndarray, flags: int) -> np.ndarray:
-    if flags & _WITHOUT_MASKS:
-        return np.zeros_like(masks)
-    return masks if flags & _WITH_LINKS else np.where(masks < 0, masks, masks & _BODY)
+    picture = client.painter.draw(
+        client.world, size, projection, view, client.light, bool(chosen & _WITH_LINKS)
+    )
+    masks = np.zeros_like(picture.masks) if chosen & _WITHOUT_MASKS else picture.masks
+    return *size, picture.colors, picture.depths, masks
 
 
 def _side(value: int, what: str) -> int:

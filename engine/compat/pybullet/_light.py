@@ -44,15 +44,14 @@ class Light:
         return replace(self, **{name: held for name, held in values.items() if held is not None})
 
     @property
-    def is_plain(self) -> bool:
-        """Whether it is white, and no colour becomes brighter than its surface's."""
-        parts = self.ambient, self.diffuse, self.specular
-        return self.color == (1.0, 1.0, 1.0) and sum(parts) <= 1.0
-
-    @property
     def unit(self) -> np.ndarray:
         """The direction at length 1, (3,) float64."""
         return linalg.normalize(self.direction)
+
+    def numbers(self) -> np.ndarray:
+        """Return direction, colour, ambient, diffuse and specular, (9,) float32."""
+        parts = *self.unit.tolist(), *self.color, self.ambient, self.diffuse, self.specular
+        return np.array(parts, np.float32)
 
     def view(self) -> np.ndarray:
         """Return light-from-world: an eye that looks at the origin, with +Z up; (4, 4) float64."""

@@ -50,6 +50,7 @@ def shade(
     memset(&p, 0, sizeof(p))
     cdef Py_ssize_t height = shown.shape[0], width = shown.shape[1]
     require(height > 0 and width > 0 and masks.shape[0] > 0)
+    require(light.shape[0] == 9 and lens.shape[0] == 3)
     require(own.shape[0] == height and own.shape[1] == width and own.shape[2] == 4)
     require(normals.shape[0] == height and normals.shape[1] == width and normals.shape[2] == 3)
     require(depths.shape[0] == height and depths.shape[1] == width)
@@ -64,6 +65,7 @@ def shade(
     p.light.ambient, p.light.diffuse, p.light.specular = light[6], light[7], light[8]
     p.lens.is_parallel, p.lens.scale, p.lens.offset = <int32_t>lens[0], lens[1], lens[2]
     if shadows is not None:
+        require(positions is not None and clip is not None)
         require(positions.shape[0] == height and positions.shape[1] == width and positions.shape[2] == 3)
         require(shadows.shape[0] == height and shadows.shape[1] == width)
         p.shadows.positions, p.shadows.depths = &positions[0, 0, 0], &shadows[0, 0]

@@ -31,6 +31,13 @@ class Client:
         self.light = Light()
         self.near, self.far = 0.01, 1000.0
 
+    def note_lens(self, projection: np.ndarray) -> None:
+        """Note where near and far are of a perspective, (4, 4) float64."""
+        with np.errstate(all="ignore"):
+            near, far = projection[2, 3] / (projection[2, 2] + np.array([-1.0, 1.0]))
+        if 0.0 < near < far < np.inf:
+            self.near, self.far = float(near), float(far)
+
     def usual_camera(self, bullet: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return the projection and view of TinyRenderer without a camera, (4, 4) float64 each."""
         near = self.near

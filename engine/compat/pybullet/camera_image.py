@@ -88,8 +88,7 @@ def getCameraImage(  # the name is PyBullet's
     else:
         projection = _matrix(projectionMatrix, "projectionMatrix")
         view = _matrix(viewMatrix, "viewMatrix")
-        client.near = float(projection[2, 3] / (projection[2, 2] - 1.0))
-        client.far = float(projection[2, 3] / (projection[2, 2] + 1.0))
+        client.note_lens(projection)
     chosen = max(operator.index(flags), 0)
     if chosen & _PROJECTIVE:
         warn("ER_USE_PROJECTIVE_TEXTURE is for OpenGL alone: left out, as TinyRenderer does")

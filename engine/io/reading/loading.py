@@ -22,7 +22,7 @@ from .documents import Document
 from .extents import extent_warnings
 from .linked_files import checked_root
 from .reader_registry import find_reader
-from .robot_options import RobotOptions, check_robot, with_robot
+from .robot_options import RobotOptionError, RobotOptions, check_robot, with_robot
 from .sources import File, Source, read_source
 
 if TYPE_CHECKING:
@@ -284,5 +284,7 @@ def _faults_of(source: Source) -> Iterator[None]:
     try:
         with _memory_of(source):
             yield
+    except RobotOptionError as error:
+        raise RobotOptionError(f"{source.path}: {error}") from None
     except InvalidArgumentError as error:  # a count exceeds what a mesh can hold
         raise FileFormatError(str(error), source.path) from error

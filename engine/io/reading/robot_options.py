@@ -19,6 +19,10 @@ from .sources import Source
 _SHAPES_OF: tuple[ShapesOf, ...] = get_args(ShapesOf)
 
 
+class RobotOptionError(InvalidArgumentError):
+    """An option that does not fit the file: the caller's fault, not the file's."""
+
+
 class RobotOptions(TypedDict, total=False):
     """Keywords for robots (URDF).
 
@@ -67,7 +71,7 @@ def check_robot(source: Source, document: Document) -> None:
     """Raise if a file without joints was given options of a robot."""
     if not document.has_joints and (source.joints or source.shapes != "visual"):
         what = "joints" if source.joints else "shapes"
-        raise InvalidArgumentError(
+        raise RobotOptionError(
             f"{source.path}: {what} are options of robots, and this is a file of format "
             f"{document.format}"
         )

@@ -9,8 +9,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from ...errors import InvalidArgumentError
 from ...model.motion.joints import checked_values, joint_pose, rest_value
 from ..reading.documents import TreeRecord
+from ..reading.robot_options import RobotOptionError
 
 
 def with_joints(tree: TreeRecord, values: Mapping[str, Any] | None) -> TreeRecord:
@@ -18,7 +20,7 @@ def with_joints(tree: TreeRecord, values: Mapping[str, Any] | None) -> TreeRecor
 
     Raises
     ------
-    InvalidArgumentError
+    RobotOptionError
         As `checked_values`.
     """
     robot = tree.robot
@@ -29,7 +31,11 @@ def with_joints(tree: TreeRecord, values: Mapping[str, Any] | None) -> TreeRecor
         for name, form in forms.items()
         if form.mimic is None and form.kind != "fixed"
     }
-    found = checked_values(forms, led, clamp=False) | checked_values(forms, values or {})
+    try:
+        given = checked_values(forms, values or {})
+    except InvalidArgumentError as error:
+        raise RobotOptionError(str(error)) from None
+    found = checked_values(forms, led, clamp=False) | given
     nodes = list(tree.nodes)
     for joint in robot.joints:
         if joint.form.name in found:

@@ -72,8 +72,8 @@ def test_convert_and_sheet_take_joints(arm, tmp_path):
     assert scene.find("upper").euler[2] == pytest.approx(math.pi / 2)
     options = ("-o", "a.png", "--size", "640x480", "--joint", "elbow=90deg", "--json")
     assert main(["sheet", arm, *options]) == 0
-    bounds = json.loads((tmp_path / "a.json").read_text())["models"][0]["bounds"]
-    assert bounds[1][1] == pytest.approx(4.0)
+    bounds = json.loads((tmp_path / "a.json").read_text())["models"][0]["bounds"]["high"]
+    assert bounds[1] == pytest.approx(4.0)
 
 
 @pytest.mark.parametrize(

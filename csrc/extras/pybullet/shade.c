@@ -9,7 +9,8 @@
 #include "e3d_backends.h"
 
 /* Rows that a thread takes at once; smaller pictures are one thread's. */
-enum { ROWS = 16, ALONE = 1 << 14 };
+enum { ROWS = 16,
+       ALONE = 1 << 14 };
 
 static const float SHADE = 0.8f, BIAS = 0.05f;
 

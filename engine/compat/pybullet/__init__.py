@@ -5,6 +5,6 @@ works and what differs. The package pybullet is imported when a picture is drawn
 """
 
 from .camera_image import getCameraImage
-from .in_place import install
+from .noted_calls import install
 
 __all__ = ["getCameraImage", "install"]

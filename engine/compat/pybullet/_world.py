@@ -20,7 +20,7 @@ from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...model.scene.selection import NodeSelection
-from ._shapes import Shape, form_of
+from ._visuals import Shape, form_of
 
 # Of getDynamicsInfo: the pose of the inertial frame, and the kind of body.
 _INERTIAL, _KIND = slice(3, 5), 10

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ._light import Light
-from ._picture import Painter
+from ._shading import Painter
 from ._world import World
 
 

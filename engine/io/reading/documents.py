@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from ...model.motion.joints import JointForm, JointValue
     from ...model.scene.scene import Scene
 
+# Formats with trees that do not say which sides of their faces are visible.
+_WITHOUT_SIDES = ("dae", "urdf")
 #: The parts of a node's pose, as keywords of `Scene.add`.
 Place: TypeAlias = dict[str, Any]
 
@@ -495,7 +497,7 @@ class Document:
     @property
     def states_sides(self) -> bool:
         """Whether the format defines which sides of its faces are visible."""
-        return self.tree is not None and not self.has_joints
+        return self.tree is not None and self.format not in _WITHOUT_SIDES
 
     @property
     def is_scene(self) -> bool:

@@ -256,7 +256,7 @@ def document_of(source: Source, format: str | None, *, split: bool) -> Document:
     with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
         document = reader.read(source, split=split)
         document.warnings.extend(extent_warnings(document))
-    document.up = reader.up
+    document.up = reader.up or document.up
     source.progress(1.0)
     return document
 

@@ -11,48 +11,20 @@ import re
 from collections.abc import Iterable
 from typing import NoReturn
 
-import numpy as np
-
 from ....base.near_words import meant
 from ....errors import FileFormatError
 from ...reading.sources import Source
 from ...reading.text import shown
 from ...reading.warning_list import WarningList
-from ...reading.xml_events import SEPARATOR, Attributes, XmlFault, read_xml
+from ...reading.xml_elements import Element, read_elements
+from ...reading.xml_events import XmlFault
 
 _XACRO = "this is xacro, from which URDF is made: xacro IN.urdf.xacro > OUT.urdf"
-_LINE_END = ord("\n")
 # A declaration that does not begin the file, as XML demands.
 _DECLARATION = re.compile(rb"(\s*)(<\?xml\b[^>]*\?>)")
 _END = b"</robot>"
 # Words of a list of numbers: some files have commas.
 _BETWEEN = re.compile(r"[\s,]+")
-
-
-class Element:
-    """An element, with those within it.
-
-    Attributes
-    ----------
-    name : str
-    attributes : dict of str to str
-    line : int
-    children : list of Element
-    """
-
-    __slots__ = ("attributes", "children", "line", "name")
-
-    def __init__(self, name: str, attributes: Attributes, line: int) -> None:
-        self.name, self.attributes, self.line = name, attributes, line
-        self.children: list[Element] = []
-
-    def all(self, name: str) -> list[Element]:
-        """Return the elements of a name within this one."""
-        return [child for child in self.children if child.name == name]
-
-    def first(self, name: str) -> Element | None:
-        """Return the first element of a name within this one, or None."""
-        return next((child for child in self.children if child.name == name), None)
 
 
 class UrdfText:
@@ -91,23 +63,11 @@ class UrdfText:
         return data
 
     def _parsed(self, data: bytes) -> Element:
-        top = Element("", {}, 0)
-        ends = np.flatnonzero(np.frombuffer(data, np.uint8) == _LINE_END)
-        open_elements = [top]
-
-        def begin(name: str, attributes: Attributes, place: int) -> None:
-            space, _, local = name.rpartition(SEPARATOR)
-            if "xacro" in space:
+        def check(namespace: str) -> None:
+            if "xacro" in namespace:
                 raise XmlFault(_XACRO)
-            element = Element(local, attributes, int(np.searchsorted(ends, place)) + 1)
-            open_elements[-1].children.append(element)
-            open_elements.append(element)
 
-        def end(name: str) -> None:
-            open_elements.pop()
-
-        read_xml([data], begin, end, self.source.path)
-        return top.children[0]
+        return read_elements(data, self.source.path, check)
 
     def fault(self, message: str, element: Element) -> FileFormatError:
         """Return an error about an element."""

@@ -13,7 +13,8 @@ from ....base.near_words import meant
 from ....choices import JointKind
 from ....model.motion.joints import JointForm
 from ...reading.text import shown
-from .urdf_elements import Element, UrdfText
+from ...reading.xml_elements import Element
+from .urdf_elements import UrdfText
 from .urdf_model import Link, pose_of
 
 _KINDS: tuple[JointKind, ...] = get_args(JointKind)

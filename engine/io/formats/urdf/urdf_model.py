@@ -13,7 +13,8 @@ import numpy as np
 from ....base import linalg
 from ....model.motion.joints import turned
 from ...reading.text import shown
-from .urdf_elements import Element, UrdfText
+from ...reading.xml_elements import Element
+from .urdf_elements import UrdfText
 
 _NOTHING = (0.0,)
 #: The kinds of shapes -> their attributes, with the values of those that are missing.

@@ -6,7 +6,6 @@ share their arrays, and files are read once. Axes of cylinders and capsules are 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -28,6 +27,7 @@ from ...reading.reader_registry import find_reader
 from ...reading.sources import Source
 from ...reading.text import shown
 from ...reading.warning_list import WarningList
+from ..threemf.threemf_model import METRES
 from .urdf_files import RobotFiles
 from .urdf_model import Look, Shape
 
@@ -36,8 +36,6 @@ _AROUND, _TO_POLE = 32, 8
 # What formats of scenes name their shapes in: glTF's +Y is up, a robot's +Z.
 _UPRIGHT = {"+Y": linalg.rotation_x(np.pi / 2)}
 _TURNED = ("gltf", "glb")
-_UNIT = re.compile(rb"<unit\b[^>]*\bmeter\s*=\s*[\"']([0-9.eE+-]+)[\"']")
-_HEAD = 1 << 14
 
 
 class ShapePart(NamedTuple):
@@ -100,11 +98,10 @@ class ShapeMeshes:
         document = document_of(source, None, split=True)
         for message in document.warnings:
             self._warnings.add_once(message)
-        pose = None
+        metres = METRES.get(document.unit, 1.0)
+        pose = None if metres == 1.0 else linalg.scaling(metres)
         if document.format in _TURNED:
             pose = _UPRIGHT[document.up]
-        elif document.format == "dae" and (metres := _metres_of(source)) != 1.0:
-            pose = linalg.scaling(metres)
         return [ShapePart(o.mesh, _product(pose, o.pose)) for o in document.objects]
 
     def _in_look(self, part: ShapePart, look: Look) -> ShapePart:
@@ -159,16 +156,6 @@ def _product(first: np.ndarray | None, second: np.ndarray | None) -> np.ndarray 
     if first is None or second is None:
         return second if first is None else first
     return linalg.multiply(first, second)
-
-
-def _metres_of(source: Source) -> float:
-    """Return what a unit of a COLLADA file is in metres; its reader leaves units out."""
-    found = _UNIT.search(source.head(_HEAD))
-    try:
-        metres = float(found[1]) if found is not None else 1.0
-    except ValueError:
-        return 1.0
-    return metres if 0.0 < metres < np.inf else 1.0
 
 
 def capsule(radius: float, length: float) -> Mesh:

@@ -23,6 +23,11 @@ from .camera_image import getCameraImage
 
 _CLIENT = "physicsClientId"
 _NO_TEXTURE = -2
+# The arguments of changeVisualShape, and what they are if they are not given.
+_OF_CHANGE = ("objectUniqueId", "linkIndex", "shapeIndex", "textureUniqueId", "rgbaColor")
+_OF_CHANGE += ("specularColor", "flags", _CLIENT)
+_USUAL = {"objectUniqueId": -1, "linkIndex": -1, "shapeIndex": -1, "textureUniqueId": _NO_TEXTURE}
+_USUAL |= {"rgbaColor": None, _CLIENT: 0}
 
 
 class _Replaced:
@@ -92,31 +97,22 @@ def _load_texture(
     return number
 
 
-def _change_shape(
-    call: Callable[[], Any],
-    objectUniqueId: int,
-    linkIndex: int,
-    shapeIndex: int = -1,
-    textureUniqueId: int = _NO_TEXTURE,
-    rgbaColor: Any = None,
-    specularColor: Any = None,
-    flags: int = -1,
-    physicsClientId: int = 0,
-) -> Any:
-    world = client_of(physicsClientId).world
+def _change_shape(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
+    given = {**_USUAL, **dict(zip(_OF_CHANGE, args, strict=False)), **keywords}
+    uid, link, place, number = (given[name] for name in _OF_CHANGE[:4])
+    world = client_of(given[_CLIENT]).world
     try:
-        world.body(objectUniqueId)  # as it is before
-    except _errors():
+        world.body(uid)  # as it is before
+    except (_errors(), TypeError):
         return call()  # which says what is wrong
     result = call()
-    if rgbaColor is not None:
-        color = tuple(np.asarray(rgbaColor, np.float64).tolist())
-        world.paint(objectUniqueId, linkIndex, shapeIndex, color)
-    if textureUniqueId > _NO_TEXTURE:
-        texture = world.textures.get(textureUniqueId)
-        if texture is None and textureUniqueId >= 0:
-            warn(f"texture {textureUniqueId} was loaded before install(), and is not drawn")
-        world.dress(objectUniqueId, linkIndex, shapeIndex, texture)
+    if given["rgbaColor"] is not None:
+        world.paint(uid, link, place, tuple(map(float, given["rgbaColor"])))
+    if number > _NO_TEXTURE:
+        texture = world.textures.get(number)
+        if texture is None and number >= 0:
+            warn(f"texture {number} was loaded before install(), and is not drawn")
+        world.dress(uid, link, place, texture)
     return result
 
 

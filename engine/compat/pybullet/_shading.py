@@ -103,7 +103,7 @@ class Painter:
     def _of_size(self, size: tuple[int, int]) -> _Engines:
         engines = self._engines.pop(size, None)
         if engines is None:
-            engines = _Engines(*(Renderer(size, color_space="linear") for _ in _Engines._fields))
+            engines = _Engines(*(Renderer(size, color_space="linear") for _ in range(2)))
         self._engines[size] = engines
         if len(self._engines) > _MOST_SIZES:
             del self._engines[next(iter(self._engines))]

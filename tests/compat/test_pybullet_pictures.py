@@ -282,6 +282,26 @@ def test_bodies_go_and_their_numbers_come_again(bullet):
     compare()
 
 
+def test_a_body_that_replaces_another_has_nothing_of_it(bullet):
+    texture = bullet.loadTexture("tex256.png")
+    tent = {"vertices": [[0, -0.1, 0], [1, 0, 0], [0, 0, 1]], "indices": [0, 1, 2, 0, 2, 1]}
+    for _ in range(3):
+        body = bullet.loadURDF("cube.urdf", [0, 0, 0.5])
+        compare()
+        bullet.changeVisualShape(body, -1, textureUniqueId=texture, rgbaColor=[1, 0.5, 1, 1])
+        compare()
+        bullet.removeBody(body)
+        shape = bullet.createVisualShape(bullet.GEOM_MESH, **tent)
+        body = bullet.createMultiBody(1, -1, shape)
+        compare()
+        bullet.removeBody(bodyUniqueId=body)
+        tent["vertices"][1][0] += 0.5
+    bullet.loadURDF("cube.urdf", [0, 0, 0.5])
+    bullet.resetSimulation(0, 0)
+    bullet.loadURDF("cube.urdf", [0, 0, 0.5])
+    compare()
+
+
 def test_clients_are_apart_and_their_objects_draw_too(bullet):
     client_module = pytest.importorskip("pybullet_utils.bullet_client", exc_type=ImportError)
     bullet.loadURDF("cube.urdf", [0, 0, 0.5])

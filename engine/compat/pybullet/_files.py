@@ -35,10 +35,6 @@ class FileMesh(NamedTuple):
     texture: Texture | None
 
 
-_meshes: dict[tuple[str, float, int], FileMesh] = {}
-_textures: dict[tuple[str, float, int], Texture] = {}
-
-
 def found_file(name: str, folders: tuple[str, ...]) -> str:
     """Return the path of a file that Bullet names.
 
@@ -69,10 +65,7 @@ def read_mesh(path: str) -> FileMesh:
     ------
     FileFormatError, FileAccessError
     """
-    key = _key(path)
-    if key not in _meshes:
-        _meshes[key] = _stl(path) or _document(path)
-    return _meshes[key]
+    return _kept_mesh(*_key(path))
 
 
 def read_texture(path: str) -> Texture:
@@ -82,10 +75,17 @@ def read_texture(path: str) -> Texture:
     ------
     FileFormatError, FileAccessError
     """
-    key = _key(path)
-    if key not in _textures:
-        _textures[key] = turned_texture(load_texture(path).pixels)
-    return _textures[key]
+    return _kept_texture(*_key(path))
+
+
+@functools.lru_cache(maxsize=512)
+def _kept_mesh(path: str, changed: float, size: int) -> FileMesh:
+    return _stl(path) or _document(path)
+
+
+@functools.lru_cache(maxsize=128)
+def _kept_texture(path: str, changed: float, size: int) -> Texture:
+    return turned_texture(load_texture(path).pixels)
 
 
 def _key(path: str) -> tuple[str, float, int]:

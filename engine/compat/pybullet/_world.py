@@ -140,6 +140,11 @@ class World:
         self.visuals.clear()
         self.given.clear()
 
+    def forget(self, uid: int) -> None:
+        """Forget a body that was removed."""
+        self._drop(uid)
+        self.given.pop(uid, None)
+
     def body(self, uid: int) -> _Body:
         """Return the shapes of a body as they are now."""
         ask = {"physicsClientId": self._client}

@@ -25,9 +25,9 @@ _CLIENT = "physicsClientId"
 _NO_TEXTURE = -2
 # The arguments of changeVisualShape, and what they are if they are not given.
 _OF_CHANGE = ("objectUniqueId", "linkIndex", "shapeIndex", "textureUniqueId", "rgbaColor")
-_OF_CHANGE += ("specularColor", "flags", _CLIENT)
+_OF_CHANGE += ("specularColor", "flags")
 _USUAL = {"objectUniqueId": -1, "linkIndex": -1, "shapeIndex": -1, "textureUniqueId": _NO_TEXTURE}
-_USUAL |= {"rgbaColor": None, _CLIENT: 0}
+_USUAL |= {"rgbaColor": None}
 
 
 class _Replaced:
@@ -72,25 +72,28 @@ def _noted(
     return note(lambda: original(*args, **keywords), *args, **keywords)
 
 
-def _world(keywords: dict[str, Any]) -> World:
-    return client_of(keywords.get(_CLIENT, 0)).world
+def _given(args: tuple[Any, ...], keywords: dict[str, Any], *names: str) -> dict[str, Any]:
+    """Return arguments by name; those that are named last are the client's number."""
+    return {_CLIENT: 0, **dict(zip((*names, _CLIENT), args, strict=False)), **keywords}
 
 
-def _search_path(call: Callable[[], Any], path: str, physicsClientId: int = 0) -> Any:
-    client_of(physicsClientId).world.folders.append(path)
-    return call()
+def _world(given: dict[str, Any]) -> World:
+    return client_of(given.get(_CLIENT, 0)).world
 
 
-def _load_texture(
-    call: Callable[[], Any],
-    textureFilename: str,
-    physicsClientId: int = 0,
-) -> Any:
-    number = call()
-    world = client_of(physicsClientId).world
+def _search_path(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
+    given = _given(args, keywords, "path")
+    result = call()
+    _world(given).folders.append(given["path"])
+    return result
+
+
+def _load_texture(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
+    given = _given(args, keywords, "textureFilename")
+    number, world = call(), _world(given)
     if number >= 0:
         try:
-            path = found_file(textureFilename, tuple(world.folders[::-1]))
+            path = found_file(given["textureFilename"], tuple(world.folders[::-1]))
             world.textures[number] = read_texture(path)
         except Engine3DError as error:
             warn(f"a texture of PyBullet is not drawn: {error}")
@@ -98,9 +101,9 @@ def _load_texture(
 
 
 def _change_shape(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    given = {**_USUAL, **dict(zip(_OF_CHANGE, args, strict=False)), **keywords}
+    given = {**_USUAL, **_given(args, keywords, *_OF_CHANGE)}
     uid, link, place, number = (given[name] for name in _OF_CHANGE[:4])
-    world = client_of(given[_CLIENT]).world
+    world = _world(given)
     try:
         world.body(uid)  # as it is before
     except (_errors(), TypeError):
@@ -149,12 +152,19 @@ def _create_body(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
 
 
 def _reset(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    _world(keywords).clear()
+    _world(_given(args, keywords, "flags")).clear()
     return call()
 
 
-def _disconnect(call: Callable[[], Any], physicsClientId: int = 0) -> Any:
-    forget(physicsClientId)
+def _remove(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
+    given = _given(args, keywords, "bodyUniqueId")
+    result = call()
+    _world(given).forget(given["bodyUniqueId"])  # another body may get its number
+    return result
+
+
+def _disconnect(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
+    forget(_given(args, keywords)[_CLIENT])
     return call()
 
 
@@ -176,6 +186,7 @@ _NOTES: dict[str, Callable[..., Any]] = {
     "resetVisualShapeData": _change_shape,
     "createVisualShape": _create_visual,
     "createMultiBody": _create_body,
+    "removeBody": _remove,
     "resetSimulation": _reset,
     "disconnect": _disconnect,
     "loadMJCF": _load_mjcf,

@@ -46,8 +46,8 @@ typedef struct e3d_tiny_picture {
     int32_t *shown_masks;   /* (height, width) */
 } e3d_tiny_picture;
 
-/* Fills in the last three arrays. */
-void e3d_tiny_shade(const e3d_tiny_picture *picture);
+/* Fills in the last three arrays. threads: 0 is e3d_thread_count(). */
+void e3d_tiny_shade(const e3d_tiny_picture *picture, int32_t threads);
 
 #ifdef __cplusplus
 }

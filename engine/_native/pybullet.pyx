@@ -72,4 +72,4 @@ def shade(
         copy_numbers(p.shadows.clip, clip, 16)
     p.colors, p.window_depths, p.shown_masks = &colors[0, 0, 0], &window_depths[0, 0], &shown_masks[0, 0]
     with nogil:
-        e3d_tiny_shade(&p)
+        e3d_tiny_shade(&p, 0)

@@ -48,4 +48,5 @@ def window_depths(depths, lens):
     scale, offset = float(scale), float(offset)
     near, far = scale / (offset - 1), scale / (offset + 1)
     z = np.where(np.isinf(depths), far, depths.astype(np.float64))
-    return (far * (near + z) / (2 * far * near + far * z - near * z)).astype(f4)
+    share = (far * (near + z) / (2 * far * near + far * z - near * z)).astype(f4)
+    return np.where(np.isnan(share), f4(1), share)

@@ -79,7 +79,8 @@ static float window_depth(const e3d_tiny_lens *lens, float depth)
     }
     const double near = lens->scale / (lens->offset - 1.0), far = lens->scale / (lens->offset + 1.0);
     const double z = depth < 1e30f ? depth : far;
-    return (float)(far * (near + z) / (2.0 * far * near + far * z - near * z));
+    const float share = (float)(far * (near + z) / (2.0 * far * near + far * z - near * z));
+    return share == share ? share : 1.0f;
 }
 
 static void shade_rows(void *argument, int part)
@@ -103,9 +104,10 @@ static void shade_rows(void *argument, int part)
     e3d_fpenv_leave(before);
 }
 
-void e3d_tiny_shade(const e3d_tiny_picture *picture)
+void e3d_tiny_shade(const e3d_tiny_picture *picture, int32_t threads)
 {
+    const int most = threads > 0 ? threads : e3d_thread_count();
     const int parts = (picture->height + ROWS - 1) / ROWS;
     const int is_small = (int64_t)picture->width * picture->height < ALONE;
-    e3d_pool_share(is_small ? 1 : e3d_thread_count(), parts, shade_rows, (void *)(uintptr_t)picture);
+    e3d_pool_share(is_small ? 1 : most, parts, shade_rows, (void *)(uintptr_t)picture);
 }

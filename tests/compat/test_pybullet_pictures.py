@@ -302,6 +302,22 @@ def test_a_body_that_replaces_another_has_nothing_of_it(bullet):
     compare()
 
 
+def test_scenes_begin_anew_after_many_bodies(bullet, monkeypatch):
+    from engine3d.compat.pybullet import _world
+
+    monkeypatch.setattr(_world, "_MOST_ID", 6)
+    texture = bullet.loadTexture("tex256.png")
+    kept = bullet.loadURDF("cube.urdf", [0, 0, 0.5])
+    bullet.changeVisualShape(kept, -1, textureUniqueId=texture)
+    for number in range(12):
+        body = bullet.loadURDF("r2d2.urdf", [0, 1, 0.1 * number])
+        compare(shadow=number % 2)
+        bullet.removeBody(body)
+        if number == 6:
+            bullet.changeVisualShape(kept, -1, rgbaColor=[1, 0.5, 0.5, 1])
+    assert set(np.unique(compare())) == {-1, kept}
+
+
 def test_clients_are_apart_and_their_objects_draw_too(bullet):
     client_module = pytest.importorskip("pybullet_utils.bullet_client", exc_type=ImportError)
     bullet.loadURDF("cube.urdf", [0, 0, 0.5])

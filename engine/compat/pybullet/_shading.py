@@ -133,9 +133,13 @@ def _shadow_map(
     """
     world.camera.matrix = linalg.multiply(_shifted(projection, size), light.view())
     hidden = world.hidden()
-    for node in hidden:
-        node.visible = True
-    frame = engine.render(world.scene, camera=world.viewpoint, outputs=("ndc_depth",), cull="none")
-    for node in hidden:
-        node.visible = False
+    try:
+        for node in hidden:
+            node.visible = True
+        frame = engine.render(
+            world.scene, camera=world.viewpoint, outputs=("ndc_depth",), cull="none"
+        )
+    finally:
+        for node in hidden:
+            node.visible = False
     return frame.ndc_depth

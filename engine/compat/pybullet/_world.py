@@ -30,6 +30,8 @@ _LINK_SHIFT = 24
 _BODY = (1 << _LINK_SHIFT) - 1
 # Of a row of visual shape data.
 _COLOR = 7
+# A scene whose object IDs are beyond this begins anew.
+_MOST_ID = 1 << 16
 
 
 class _Body:
@@ -45,7 +47,9 @@ class _Body:
     links : list of int
         The links that have shapes, without the base.
     is_shown : bool
-        Whether the shapes have their nodes.
+        Whether the shapes have their nodes, as far as they can be drawn.
+    is_drawn : bool
+        Whether one of them has.
     """
 
     def __init__(
@@ -59,7 +63,7 @@ class _Body:
             meshes = given.get(form.link) if form.kind == 5 and not form.file else None
             self.shapes.append(Shape(form, row[7], meshes.pop(0) if meshes else None))
         self.links = sorted({shape.form.link for shape in self.shapes} - {-1})
-        self.is_shown = False
+        self.is_shown = self.is_drawn = self._is_left_out = False
 
     def is_of(self, place: tuple[Any, ...], rows: tuple[Any, ...]) -> bool:
         """Return whether this may be the body of that data, if colours may have changed."""
@@ -87,9 +91,15 @@ class _Body:
             for shape in self.drawn()
         ]
 
+    def take_off(self) -> None:
+        """Forget the nodes of a scene that is no longer drawn."""
+        for shape in self.shapes:
+            shape.node = None
+        self.is_shown = self._is_left_out
+
     def leave_out(self) -> None:
         """Draw none of the shapes."""
-        self.is_shown = True
+        self.is_shown = self._is_left_out = True
 
     def drawn(self) -> list[Shape]:
         """Return the shapes that have nodes."""
@@ -116,26 +126,32 @@ class World:
 
     def __init__(self, bullet: Any, client: int) -> None:
         self._bullet, self._client = bullet, client
-        self.scene = Scene(background=None, ambient=(0, 0, 0))
-        #: Its matrix is clip-from-world: the node stays where the world's origin is.
-        self.camera = Camera(np.eye(4))
-        self.viewpoint = self.scene.add(self.camera)
+        self._bodies: dict[int, _Body] = {}
+        self._begin_scene()
         self.textures: dict[int, Texture] = {}
         self.folders: list[str] = []
         # Meshes of vertices: by number of the visual shape, and by body and link.
         self.visuals: dict[int, Mesh] = {}
         self.given: dict[int, dict[int, list[Mesh]]] = {}
-        self._bodies: dict[int, _Body] = {}
-        self._is_new = True
         self._selection: NodeSelection | None = None
         self._locals = np.zeros((0, 4, 4))
         self._frames = np.zeros(0, np.int64)
         self._masks = _tables({})
 
+    def _begin_scene(self) -> None:
+        """Begin an empty scene, in which object IDs count from 0."""
+        self.scene = Scene(background=None, ambient=(0, 0, 0))
+        # Its matrix is clip-from-world: the node stays where the world's origin is.
+        self.camera = Camera(np.eye(4))
+        self.viewpoint = self.scene.add(self.camera)
+        for body in self._bodies.values():
+            body.take_off()
+        self._is_new = True
+
     def clear(self) -> None:
         """Forget all bodies, shapes and textures; folders stay."""
-        for uid in list(self._bodies):
-            self._drop(uid)
+        self._bodies.clear()
+        self._begin_scene()
         self.textures.clear()
         self.visuals.clear()
         self.given.clear()
@@ -213,6 +229,8 @@ class World:
 
     def _place(self, bodies: list[tuple[int, Any]]) -> None:
         """Add the nodes of new bodies, and note which frame each node follows."""
+        if self.scene.nodes[-1].id > _MOST_ID:  # the table of masks has a row for each ID
+            self._begin_scene()
         nodes, places, frames, masks, count = [], [], [], {}, 0
         for uid, body in bodies:
             for shape in () if body.is_shown else body.shapes:

@@ -103,6 +103,7 @@ class Robot(FixedNames):
         self._links = {node.name: node for node in links}
         self._joints = {form.name: Joint(self, form, *ends) for form, *ends in joints}
         self._forms = {joint.name: joint._form for joint in self._joints.values()}
+        self._above = {joint._child: joint for joint in self._joints.values()}
         for key, value in values.items():
             self._joints[key]._value = value
 
@@ -171,16 +172,24 @@ class Robot(FixedNames):
         """
         if name not in self._links:
             raise InvalidArgumentError(f"there is no link {shown(name)}{meant(name, self._links)}")
-        node, pose = self._links[name], np.eye(4)
-        above = {joint._child: joint for joint in self._joints.values()}
-        while (joint := above.get(node)) is not None:
-            pose = linalg.multiply(joint_pose(joint._form, joint._value), pose)
-            node = joint._parent
-        return pose
+        return self._placed(self._links[name], {})
 
     def link_poses(self) -> dict[str, NDArray[np.float64]]:
         """Return root-from-link of all links by name, each (4, 4) float64."""
-        return {name: self.link_pose(name) for name in self._links}
+        known: dict[Node, NDArray[np.float64]] = {}
+        return {name: self._placed(node, known).copy() for name, node in self._links.items()}
+
+    def _placed(self, node: Node, known: dict[Node, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Return root-from-link of a node; ``known`` keeps those on the way."""
+        path = []
+        while node not in known and (joint := self._above.get(node)) is not None:
+            path.append(joint)
+            node = joint._parent
+        pose = known.get(node, np.eye(4))
+        for joint in reversed(path):
+            pose = linalg.multiply(pose, joint_pose(joint._form, joint._value))
+            known[joint._child] = pose
+        return pose
 
     def _copied_to(self, copy_of: Callable[[Node], Node]) -> Robot:
         """Return the robot of a copied scene."""

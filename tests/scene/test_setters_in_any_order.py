@@ -106,7 +106,6 @@ VALUES = {
         "fog": lambda r, t: pick(r, None, e3d.Fog(color(r), 1, 9)),
         "animator": lambda r, t: pick(r, None, e3d.Animator(t.scene)),
         "animations": lambda r, t: {},
-        "robots": lambda r, t: {},
         "warnings": lambda r, t: [],
     },
     e3d.Node: {

@@ -22,7 +22,7 @@ from .documents import Document
 from .extents import extent_warnings
 from .linked_files import checked_root
 from .reader_registry import find_reader
-from .robot_options import RobotOptionError, RobotOptions, check_robot, with_robot
+from .robot_options import RobotOptionError, RobotOptions, check_robot, robot_options
 from .sources import File, Source, read_source
 
 if TYPE_CHECKING:
@@ -89,10 +89,10 @@ def load_mesh(
     InvalidArgumentError
         ``format`` is unknown, or ``path`` has a wrong type.
     """
+    given = robot_options("load_mesh", keywords_of(load_mesh), robot)
     root = checked_root(root)
     with read_source(path) as source:
-        source = source._replace(crease_angle=check_crease_angle(crease_angle), root=root)
-        source = with_robot(source, "load_mesh", keywords_of(load_mesh), robot)
+        source = source._replace(crease_angle=check_crease_angle(crease_angle), root=root, **given)
         document = _read_document(source, format, progress, split=False)
     return whole_mesh(document, source, format)
 
@@ -122,14 +122,15 @@ def load_document(
         Whether to read custom numbers of vertices and faces into ``mesh.values``: properties of PLY
         files, attributes of glTF files whose names begin with ``_``.
     """
+    given = robot_options("load_document", keywords_of(load_document), robot)
     root = checked_root(root)
     with read_source(path) as source:
         source = source._replace(
             crease_angle=check_crease_angle(crease_angle),
             values=flag(values, "values"),
             root=root,
+            **given,
         )
-        source = with_robot(source, "load_document", keywords_of(load_document), robot)
         if companion is not None:
             source = source._replace(companion=companion)
         document = _read_document(source, format, progress, split=True)

@@ -1,6 +1,6 @@
 """The options of loading robots, which no other file has.
 
-In: what a caller gives beside a file. Out: a `Source` that holds it, for the reader.
+In: what a caller gives beside a file. Out: fields of a `Source`, for the reader.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ...errors import InvalidArgumentError
 from .documents import Document
 from .sources import Source
 
-_SHAPES_OF: tuple[ShapesOf, ...] = get_args(ShapesOf)
+SHAPES_OF: tuple[ShapesOf, ...] = get_args(ShapesOf)
 
 
 class RobotOptionError(InvalidArgumentError):
@@ -39,14 +39,11 @@ class RobotOptions(TypedDict, total=False):
     shapes: ShapesOf
 
 
-def with_robot(
-    source: Source, caller: str, known: tuple[str, ...], options: RobotOptions
-) -> Source:
-    """Return a source with the options of a robot.
+def robot_options(caller: str, known: tuple[str, ...], options: RobotOptions) -> dict[str, Any]:
+    """Return the options of a robot as fields of a `Source`.
 
     Parameters
     ----------
-    source : Source
     caller : str
         The function that took the options, for messages.
     known : tuple of str
@@ -55,8 +52,10 @@ def with_robot(
 
     Raises
     ------
+    TypeError
+        A keyword is unknown.
     InvalidArgumentError
-        A keyword is unknown, or an option has a wrong value.
+        An option has a wrong value.
     """
     refuse_unknown(caller, options, (*known, *RobotOptions.__annotations__))
     joints, shapes = options.get("joints"), options.get("shapes", "visual")
@@ -64,7 +63,7 @@ def with_robot(
         raise InvalidArgumentError(
             f"joints must be a dict of names and values, not {shown(joints)}"
         )
-    return source._replace(joints=joints or {}, shapes=choose(shapes, _SHAPES_OF, "shapes"))
+    return {"joints": joints or {}, "shapes": choose(shapes, SHAPES_OF, "shapes")}
 
 
 def check_robot(source: Source, document: Document) -> None:

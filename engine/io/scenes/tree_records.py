@@ -231,7 +231,7 @@ class _Filling:
         joints = [(joint.form, nodes[joint.parent], nodes[joint.child]) for joint in record.joints]
         links = [nodes[number] for number in record.links]
         name = record.name or "robot"
-        self._scene.robots[name] = Robot(name, links, joints, record.values)
+        self._scene.data.robots[name] = Robot(name, links, joints, record.values)
 
     def _add_skins(self) -> None:
         for index, shows in self._parts.items():

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..._native.loaders import frozen
 from ...base import linalg
 from ...base.near_words import meant
 from ...base.numbers import floats, shown
@@ -61,8 +62,8 @@ class JointForm(NamedTuple):
 def rest_value(form: JointForm) -> JointValue:
     """Return the value 0 of a joint's kind."""
     if form.kind == "floating":
-        return np.eye(4)
-    return np.zeros(3) if form.kind in ("planar", "spherical") else 0.0
+        return frozen(np.eye(4))
+    return frozen(np.zeros(3)) if form.kind in ("planar", "spherical") else 0.0
 
 
 def turned(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
@@ -155,18 +156,18 @@ def _no_joint(forms: Mapping[str, JointForm], name: object) -> str:
 def _checked(form: JointForm, value: ArrayLike) -> JointValue:
     if form.kind == "fixed":
         raise InvalidArgumentError(f"joint {form.name!r} is fixed")
-    numbers = floats(value, f"joint {form.name!r}")
+    numbers = floats(value, f"the value of joint {form.name!r}")
     if not np.isfinite(numbers).all():
         raise InvalidArgumentError(f"joint {form.name!r} takes finite numbers, not {shown(value)}")
     if form.is_single and numbers.shape in ((), (1,)):
         return float(numbers.reshape(()))
     if form.kind in ("planar", "spherical") and numbers.shape == (3,):
-        return numbers.astype(np.float64)
+        return frozen(numbers.astype(np.float64))
     if form.kind == "floating" and numbers.shape == (4, 4):
-        return numbers.astype(np.float64)
+        return frozen(numbers.astype(np.float64))
     if form.kind == "floating" and numbers.shape == (6,):
         moved = linalg.translation(numbers[:3])
-        return linalg.multiply(moved, turned(*numbers[3:].tolist()))
+        return frozen(linalg.multiply(moved, turned(*numbers[3:].tolist())))
     raise InvalidArgumentError(
         f"joint {form.name!r} takes {_NUMBERS.get(form.kind, 'one number')}, not {shown(value)}"
     )

@@ -81,6 +81,9 @@ class Joint(FixedNames):
     def value(self, value: Any) -> None:
         self._robot.set_joints({self.name: value})
 
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
+        raise TypeError("a Joint belongs to its Robot: scene.copy() copies both")
+
     def __repr__(self) -> str:
         return f"Joint({self.name!r}, {self.kind}, value={shown(self._value)})"
 

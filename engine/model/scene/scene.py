@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 import numpy as np
@@ -73,8 +74,8 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         Fog, in modes "lit" and "unlit".
     animations : dict of str to AnimationClip
         The file's clips by name, for an `AnimationPlayer`.
-    robots : dict of str to Robot
-        The file's robots by name, whose joints move nodes.
+    robots : mapping of str to Robot
+        The file's robots by name, whose joints move nodes; read-only.
     warnings : list of str
         The loader's warnings: what it omitted or replaced.
     animator : Animator or None
@@ -86,7 +87,6 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
     InvalidArgumentError
     """
 
-    robots: dict[str, Robot]
     warnings: list[str]
     if TYPE_CHECKING:  # for the engine's own parts; undeclared, so that programs can't assign it
         data: SceneData
@@ -102,7 +102,6 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         object.__setattr__(self, "data", SceneData())
         self.animations = {}
         self._animator: Animator | None = None
-        self.robots = {}
         self.warnings = []
 
     @property
@@ -114,6 +113,11 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         from ..motion.clips import check_clips
 
         self._animations = CheckedDict(self, _take_animations, check_clips(value))
+
+    @property
+    def robots(self) -> Mapping[str, Robot]:
+        """The robots of the file by name, read-only; see `Robot`."""
+        return MappingProxyType(self.data.robots)
 
     @property
     def animator(self) -> Animator | None:

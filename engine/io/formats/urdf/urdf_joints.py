@@ -17,7 +17,7 @@ from ...reading.xml_elements import Element
 from .urdf_elements import UrdfText
 from .urdf_model import Link, pose_of
 
-_KINDS: tuple[JointKind, ...] = get_args(JointKind)
+KINDS: tuple[JointKind, ...] = get_args(JointKind)
 _ZERO = (0.0,)
 _X_AXIS = (1.0, 0.0, 0.0)
 
@@ -83,9 +83,9 @@ def roots_of(text: UrdfText, links: dict[str, Link], joints: dict[str, UrdfJoint
 
 def _joint(text: UrdfText, element: Element, links: dict[str, Link]) -> UrdfJoint:
     name, given = text.name(element), text.name(element, "type")
-    kind = next((known for known in _KINDS if known == given), None)
+    kind = next((known for known in KINDS if known == given), None)
     if kind is None:
-        hint = meant(given, _KINDS)
+        hint = meant(given, KINDS)
         text.warn(f"joint {shown(name)} has type {shown(given)}{hint}; it is fixed", element)
         kind = "fixed"
     axis = text.numbers(element.first("axis"), "xyz", _X_AXIS)

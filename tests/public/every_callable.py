@@ -159,7 +159,7 @@ RIGHT: dict[str, Any] = {
     "Joint.value.value": 0.5,
     "Robot.link_pose.name": "b",
     "Robot.set_joint.name": "j",
-    "Robot.set_joint.value": 0.5,
+    "Robot.set_joint.position": 0.5,
     "Robot.set_joints.values": {"j": 0.5},
     "Channel.values": [(1, 1, 1), (2, 2, 2)],
     "DetailedMeshes.levels": lambda: [((mesh(),), 0.0)],

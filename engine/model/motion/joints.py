@@ -156,7 +156,7 @@ def _no_joint(forms: Mapping[str, JointForm], name: object) -> str:
 def _checked(form: JointForm, value: ArrayLike) -> JointValue:
     if form.kind == "fixed":
         raise InvalidArgumentError(f"joint {form.name!r} is fixed")
-    numbers = floats(value, f"the value of joint {form.name!r}")
+    numbers = floats(value, f"position (the value of joint {form.name!r})")
     if not np.isfinite(numbers).all():
         raise InvalidArgumentError(f"joint {form.name!r} takes finite numbers, not {shown(value)}")
     if form.is_single and numbers.shape in ((), (1,)):

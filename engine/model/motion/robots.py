@@ -131,13 +131,13 @@ class Robot(FixedNames):
         return {joint.name: joint.value for joint in movable}
 
     @checks_types
-    def set_joint(self, name: str, value: float | ArrayLike, *, clamp: bool = True) -> None:
+    def set_joint(self, name: str, position: float | ArrayLike, *, clamp: bool = True) -> None:
         """Move a joint, and those that follow it.
 
         Parameters
         ----------
         name : str
-        value : float or array_like
+        position : float or array_like
             Radians of revolute and continuous joints, metres of prismatic ones; ``(3,)`` x, y and
             angle of planar ones, or roll, pitch and yaw of spherical ones; ``(6,)`` x, y, z, roll,
             pitch, yaw or a ``(4, 4)`` pose of floating ones.
@@ -150,7 +150,7 @@ class Robot(FixedNames):
         InvalidArgumentError
             There is no such joint, it is fixed or follows another, or the value has a wrong form.
         """
-        self.set_joints({name: value}, clamp=clamp)
+        self.set_joints({name: position}, clamp=clamp)
 
     @checks_types
     def set_joints(self, values: Mapping[str, Any], *, clamp: bool = True) -> None:

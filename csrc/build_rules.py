@@ -129,6 +129,7 @@ def static_libraries():
         "e3d_images": ["csrc/io/images/*.c"],
         "e3d_navigation": ["csrc/scene/navigation/*.c"],
         "e3d_mujoco": ["csrc/extras/mujoco/*.c"],
+        "e3d_pybullet": ["csrc/extras/pybullet/*.c"],
         "e3d_pyrender": ["csrc/extras/pyrender/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],
         "e3d_loaders": ["csrc/io/loaders/**/*.c"],

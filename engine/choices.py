@@ -31,6 +31,7 @@ __all__ = [
     "HiddenSurfaces",
     "ImageFormat",
     "Interpolation",
+    "JointKind",
     "LightSetup",
     "LightShadow",
     "LineShape",
@@ -46,6 +47,7 @@ __all__ = [
     "Samples",
     "Shading",
     "ShadowTaps",
+    "ShapesOf",
     "SizeUnit",
     "SurfaceColor",
     "ToneMapping",
@@ -102,6 +104,10 @@ AlphaMode = Literal["opaque", "mask", "blend"]
 BuiltInEnvironment = Literal["studio", "sky", "hall"]
 MotionPath = Literal["translation", "rotation", "scale", "weights"]
 Interpolation = Literal["step", "linear", "cubicspline"]
+JointKind = Literal[
+    "fixed", "revolute", "continuous", "prismatic", "floating", "planar", "spherical"
+]
+ShapesOf = Literal["visual", "collision", "both"]
 Loop = Literal["repeat", "once", "ping-pong"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
 PixelFormat = Literal["rgba", "bgra"]

@@ -383,6 +383,24 @@ def golden() -> np.ndarray:
     return sheet([*tiles, ("difference", difference_picture(drawn, compare(now, drawn)))], 3)
 
 
+#: Of the picture of docs/urdf.md: where the arm's joints stand, radians and metres.
+ARM_POSES = (
+    {},
+    {"lift": 0.7, "elbow": 1.5, "wrist": 0.7, "grip": 0.06},
+    {"turn": 1.1, "lift": -0.6, "elbow": 1.9, "wrist": 0.9, "grip": 0.02},
+)
+
+
+def robot() -> np.ndarray:
+    """The arm of docs/urdf.md in three poses."""
+    pictures = []
+    for joints in ARM_POSES:
+        scene = e3d.load(FOLDER / "robot.urdf", joints=joints)
+        camera, pose = look((2.7, 2.3, 5.6), (0.25, 1.15, 0.0), 0.46)
+        pictures.append(e3d.render(scene, (camera, pose), size=(420, 460), samples=SAMPLES).color)
+    return np.hstack(pictures)
+
+
 PICTURES = {
     "models": models,
     "modes": modes,
@@ -396,10 +414,11 @@ PICTURES = {
     "impostors": impostors,
     "golden": golden,
     "sheet": contact_sheet,
+    "robot": robot,
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", "mirrors", "sheet", "city", "impostors", *gallery.programs())
+SMALL = ("models", "mirrors", "sheet", "city", "impostors", "robot", *gallery.programs())
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 

@@ -23,6 +23,7 @@ MODULES = (
         "loaders",
         "mujoco",
         "navigation",
+        "pybullet",
         "pyrender",
         "rasterizer",
         "scene_graph",

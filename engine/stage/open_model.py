@@ -148,7 +148,7 @@ def view_document(
     """Return a document as a scene for viewing; see `open_model`."""
     scene = scene_from_document(document, variant)
     # glTF defines the visible sides per material; other files do not, or are often wrong.
-    appearance: dict[str, Any] = {"cull": "back" if document.tree is not None else "auto"}
+    appearance: dict[str, Any] = {"cull": "back" if document.states_sides else "auto"}
     is_bare = document.is_scene and is_lit(scene)
     return ViewedScene(
         scene,

@@ -412,6 +412,42 @@ def threemf(resources, build='<item objectid="1"/>'):
     return made
 
 
+BALL = '<geometry><sphere radius=".1"/></geometry>'
+MISSING = '<geometry><mesh filename="none.stl"/></geometry>'
+
+
+def robot(part):
+    """A robot with a link and a number of parts."""
+
+    def made(n):
+        text = f'<robot name="r"><link name="a"><visual>{BALL}</visual></link>'
+        return (text + "".join(map(part, range(n))) + "</robot>").encode()
+
+    return made
+
+
+PART = (
+    '<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>'
+)
+GEOMETRY = (
+    '<geometry id="{}"><mesh><source id="p"><float_array>0 0 0 1 0 0 0 1 0</float_array></source>'
+    f'<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>{PART}</mesh></geometry>'
+)
+
+
+def collada(geometries, nodes=""):
+    """A COLLADA file with a number of geometries, or of nodes that show one."""
+
+    def made(n):
+        shown = nodes * n or '<node><instance_geometry url="#g"/></node>'
+        text = f"<COLLADA><library_geometries>{GEOMETRY.format('g')}{geometries(n)}"
+        text += "</library_geometries><library_visual_scenes><visual_scene id='s'>"
+        text += f"{shown}</visual_scene></library_visual_scenes><scene>"
+        return (text + "<instance_visual_scene url='#s'/></scene></COLLADA>").encode()
+
+    return made
+
+
 def one(n):
     return f'<object id="1">{ONE}</object>'
 
@@ -504,6 +540,22 @@ OTHERS = {
             + '<base name="a" displaycolor="#FF0000"/>' * n + "</basematerials>" + one(n)
         ),
         "metadata": threemf(lambda n: '<metadata name="a">b</metadata>' * n + one(n)),
+    },
+    "urdf": {
+        "link": robot(lambda k: f'<link name="l{k}"/>'),
+        "visual": robot(lambda k: f'<link name="l{k}"><visual>{BALL}</visual></link>'),
+        "missing mesh": robot(lambda k: f'<link name="l{k}"><visual>{MISSING}</visual></link>'),
+        "joint": robot(
+            lambda k: f'<link name="l{k}"/><joint name="j{k}" type="continuous">'
+            f'<parent link="{f"l{k - 1}" if k else "a"}"/><child link="l{k}"/></joint>'
+        ),
+        "material": robot(lambda k: f'<material name="m{k}"><color rgba="1 0 0 1"/></material>'),
+    },
+    "dae": {
+        "node": collada(lambda n: "", '<node><instance_geometry url="#g"/></node>'),
+        "geometry": collada(lambda n: "".join(GEOMETRY.format(f"h{k}") for k in range(n))),
+        "primitive": collada(lambda n: GEOMETRY.format("h").replace(PART, PART * n)),
+        "index": collada(lambda n: GEOMETRY.format("h").replace("0 1 2", "0 1 2 " * n)),
     },
     "json": {
         "node": scene(nodes={"object": 0}),

@@ -425,6 +425,51 @@ def threemf_package(parts: dict[str, bytes]) -> bytes:
     return file.getvalue()
 
 
+URDF = b"""<?xml version="1.0"?>
+<robot name="arm">
+<material name="red"><color rgba="1 0 0 1"/></material>
+<link name="base"><visual><geometry><box size="1 2 3"/></geometry><material name="red"/></visual>
+<collision><geometry><mesh filename="a.stl" scale="1 1 2"/></geometry></collision></link>
+<link name="upper"><visual name="bone"><origin xyz="0 0 1" rpy="0 .5 0"/>
+<geometry><capsule radius=".2" length="2"/></geometry>
+<material name="wood"><texture filename="house.tga"/></material></visual></link>
+<link name="hand"><visual><geometry><mesh filename="package://arm/house.obj"/></geometry></visual></link>
+<joint name="elbow" type="revolute"><parent link="base"/><child link="upper"/>
+<origin xyz="0 0 .5"/><axis xyz="0 1 0"/><limit lower="-1" upper="1.5"/></joint>
+<joint name="slide" type="prismatic"><parent link="upper"/><child link="hand"/>
+<axis xyz="0 0 1"/><limit lower="0" upper=".5"/><mimic joint="elbow" multiplier="2"/></joint>
+</robot>
+"""
+DAE = b"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="0.01"/><up_axis>Z_UP</up_axis></asset>
+<library_images><image id="i"><init_from>house.tga</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON>
+<newparam sid="u"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="s"><sampler2D><source>u</source></sampler2D></newparam>
+<technique sid="c"><phong><diffuse><texture texture="s"/></diffuse>
+<transparency><float>0.5</float></transparency></phong></technique>
+</profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array>
+<technique_common><accessor source="#pa" count="4" stride="3"/></technique_common></source>
+<source id="t"><float_array id="ta" count="6">0 0 1 0 0 1</float_array>
+<technique_common><accessor source="#ta" count="3" stride="2"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist material="k" count="2"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#t" offset="1"/><vcount>4 3</vcount>
+<p>0 0 1 1 2 2 3 0 0 0 2 1 1 2</p></polylist>
+<lines><input semantic="VERTEX" source="#v" offset="0"/><p>0 2</p></lines>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="x"><node id="n"><translate>1 2 3</translate>
+<rotate>0 0 1 45</rotate><instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="k" target="#m"/></technique_common></bind_material>
+</instance_geometry><node><scale>2 2 2</scale><instance_geometry url="#g"/></node></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#x"/></scene></COLLADA>
+"""
+
 FILES = {
     "house.obj": OBJ,
     "house.mtl": MTL,
@@ -443,4 +488,6 @@ FILES = {
     "moving.glb": MOVING_GLB,
     "a.glb": GLB,
     "a.json": SCENE,
+    "a.urdf": URDF,
+    "a.dae": DAE,
 }

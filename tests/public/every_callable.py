@@ -27,7 +27,7 @@ from engine3d.io.reading.sources import Source
 MODULES = ("", *e3d._MODULES)
 #: Classes that only the package makes, or that are data of its own without a check.
 MADE_ELSEWHERE = {
-    *("Frame", "Node", "NodeSelection", "Sheet", "World"),
+    *("Frame", "Joint", "Node", "NodeSelection", "Robot", "Sheet", "World"),
     *("batch.Summary", "datasets.Sample"),
     *("loaders.CameraRecord", "loaders.Document", "loaders.LightRecord"),
     *("plugins.Plugin", "plugins.PluginFile"),
@@ -156,6 +156,11 @@ RIGHT: dict[str, Any] = {
     "Node.look_at.target": (1, 2, 3),
     "Mesh.from_trimesh.geometry": cube_of_trimesh,
     "Channel.path": "scale",
+    "Joint.value.value": 0.5,
+    "Robot.link_pose.name": "b",
+    "Robot.set_joint.name": "j",
+    "Robot.set_joint.position": 0.5,
+    "Robot.set_joints.values": {"j": 0.5},
     "Channel.values": [(1, 1, 1), (2, 2, 2)],
     "DetailedMeshes.levels": lambda: [((mesh(),), 0.0)],
     "Environment.pixels": np.ones((2, 4, 3), np.float32),

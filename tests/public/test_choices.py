@@ -12,6 +12,8 @@ from engine3d import choices
 from engine3d._native import rasterizer as native
 from engine3d.apps.viewer import pixels
 from engine3d.apps.viewer.window import POINTERS
+from engine3d.io.formats.urdf import urdf_joints
+from engine3d.io.reading import robot_options
 from engine3d.model.environments import environment
 from engine3d.model.geometry import values
 from engine3d.model.geometry.vertex_attributes import vertex_attributes
@@ -52,12 +54,14 @@ ACCEPTED = {
     "ShadowTaps": shadow_casting.TAPS,
     "MotionPath": clips.PATHS,
     "Interpolation": clips.INTERPOLATIONS,
+    "JointKind": urdf_joints.KINDS,
     "Loop": player.LOOPS,
     "BuiltInEnvironment": environment.BUILT_IN,
     "ImageFormat": frame._FORMATS,
     "PixelFormat": pixels.FORMATS,
     "PointerShape": POINTERS,
     "LightSetup": lighting.SETUPS,
+    "ShapesOf": robot_options.SHAPES_OF,
     "LookName": look.LOOKS,
     "Backdrop": [*look.THEMED, "scene"],
     "EulerOrder": ["".join(order) for order in permutations("XYZ")],

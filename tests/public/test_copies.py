@@ -95,6 +95,15 @@ COPIED = {
     "Sheet": lambda: e3d.sheets.contact_sheet(painted(), size=(240, 240), views="iso", threads=1),
     "World": lambda: e3d.worlds.city(20_000, seed=1),
 }
+
+
+def robot():
+    shape = "<visual><geometry><sphere radius='1'/></geometry></visual>"
+    text = f"<robot name='r'><link name='a'>{shape}</link><link name='b'/>"
+    text += "<joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>"
+    return e3d.load_scene(text.encode()).robots["r"]
+
+
 REFUSED = {
     "Scene": drawn,
     "Node": lambda: drawn().nodes[0],
@@ -107,6 +116,8 @@ REFUSED = {
     ),
     "AnimationClip": lambda: e3d.motion.AnimationClip([moved()]),
     "AnimationPlayer": lambda: e3d.AnimationPlayer(drawn()),
+    "Robot": robot,
+    "Joint": lambda: robot().joints["j"],
     "Renderer": lambda: e3d.Renderer((4, 4)),
     "Resources": e3d.resources.Resources,
     "Window": lambda: e3d.Window((64, 48)),

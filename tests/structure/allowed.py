@@ -3,10 +3,11 @@
 Where a breach is to stay, a comment says why.
 """
 
-# Keywords are what users write. Those of compat.pyrender are pyrender's own.
+# Keywords are what users write. Those of compat.pybullet and compat.pyrender are these packages'.
 LONG_SIGNATURES = (
     "apps.batch.running.run",
     "apps.sheet.contact_sheet.contact_sheet",
+    "compat.pybullet.camera_image.getCameraImage",
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",
     "compat.pyrender.primitive.__init__",

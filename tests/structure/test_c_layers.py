@@ -21,6 +21,7 @@ FOLDERS = {
     "data": {"base", "include"},
     "extras/canvas": {"include"},
     "extras/mujoco": {"base", "include"},
+    "extras/pybullet": {"base", "include"},
     "extras/pyrender": {"base", "data", "include"},
     "frame/cast": {"base", "data", "frame/pass", "include", "kernels"},
     "frame/cull": {"base", "data", "frame/pass", "include", "kernels"},

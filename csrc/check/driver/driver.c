@@ -20,6 +20,7 @@
 #include "check/driver/outputs.h"
 #include "check/driver/passes.h"
 #include "check/driver/poison.h"
+#include "check/driver/scenes/pybullet_scene.h"
 #include "check/driver/scenes/pyrender_scene.h"
 #include "check/driver/renderers.h"
 #include "check/driver/scenes/ui_scene.h"
@@ -53,6 +54,7 @@ static const struct {
     {"occlusion", compare_occlusion},
     {"pyrender", compare_pyrender},
     {"mujoco", compare_mujoco},
+    {"pybullet", compare_pybullet},
     {"outputs", compare_outputs},
     {"bloom", compare_bloom},
     {"behind", compare_behind},

@@ -164,6 +164,22 @@ def interval(text: str) -> tuple[float, float]:
     return low, high
 
 
+def joint(text: str) -> tuple[str, float | tuple[float, ...]]:
+    """Parse ``NAME=VALUE``: one number or several, with ``deg`` for degrees instead of radians."""
+    name, mark, value = text.rpartition("=")
+    if not (mark and name):
+        raise argparse.ArgumentTypeError(f"{text!r} is not NAME=VALUE, such as elbow=0.4")
+    numbers = tuple(_angle(word.strip()) for word in value.split(","))
+    return name, numbers if len(numbers) > 1 else numbers[0]
+
+
+def _angle(text: str) -> float:
+    for ending in ("deg", "°"):
+        if text.endswith(ending):
+            return math.radians(number(text.removesuffix(ending)))
+    return number(text.removesuffix("rad"))
+
+
 def names(text: str) -> tuple[str, ...]:
     """Parse comma-separated names."""
     return tuple(filter(None, (part.strip() for part in text.split(","))))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import operator
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from ...base import linalg
 from ...base.calls import checks_types, keywords_of, refuse_unknown
 from ...base.files.atomic_write import AtomicFiles, checked_path
 from ...base.linalg.vectors import as_vectors
-from ...choices import Backend
+from ...choices import Backend, ShapesOf
 from ...errors import InvalidArgumentError
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
@@ -255,6 +255,8 @@ def contact_sheet(
     up: str | None = None,
     unit: str | None = None,
     root: str | os.PathLike[str] | None = None,
+    joints: Mapping[str, Any] | None = None,
+    shapes: ShapesOf = "visual",
     look: LookChoice = "studio",
     material: Material | None = None,
     backend: Backend = "auto",
@@ -285,7 +287,7 @@ def contact_sheet(
         The up direction; by default the usual one of the file's format.
     unit : str, optional
         The unit of lengths; by default the file's unit, if its format has one.
-    root : path-like, optional
+    root, joints, shapes : optional
         As in `load_mesh`, for models that are files.
     look : {"studio", "plain"} or Look
         Of the pictures, which are those of `render` with the same camera; drawings stand on paper.
@@ -312,7 +314,7 @@ def contact_sheet(
         "contact_sheet", marks, (*keywords_of(contact_sheet), *MarkKeywords.__annotations__)
     )
     specs = check_views(views, sections)
-    opened = open_sources(models, root)
+    opened = open_sources(models, root=root, joints=joints, shapes=shapes)
     drawing = {"backend": backend, "threads": threads}
     dress = Dress(drawing, check_look(look), check_material(material), dict(marks))
     pages = draw_pages(opened, specs, size, up, unit, dress)

@@ -5,7 +5,6 @@ In: the caller's sources. Out: a `ViewedScene` for each.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from typing import Any
 
@@ -18,15 +17,15 @@ from ...stage.viewed_scene import ViewedScene
 from ...stage.viewed_thing import is_file, viewed_of
 
 
-def open_sources(sources: Any, root: str | os.PathLike[str] | None = None) -> list[ViewedScene]:
+def open_sources(sources: Any, **options: Any) -> list[ViewedScene]:
     """Return the viewed scene of one or several sources.
 
     Parameters
     ----------
     sources : what `engine3d.render` takes, or an iterable of these
         An array holds the points of one model.
-    root : path-like, optional
-        As in `load_mesh`, for files.
+    **options
+        Of `open_models`, for files.
 
     Raises
     ------
@@ -39,11 +38,11 @@ def open_sources(sources: Any, root: str | os.PathLike[str] | None = None) -> li
     given = list(sources) if is_several and not is_file(sources) else [sources]
     if not given:
         raise InvalidArgumentError("a sheet needs a model")
-    return [_open(source, root) for source in given]
+    return [_open(source, options) for source in given]
 
 
-def _open(source: Any, root: str | os.PathLike[str] | None) -> ViewedScene:
-    viewed = open_models([source], root=root) if is_file(source) else viewed_of(source)
+def _open(source: Any, options: dict[str, Any]) -> ViewedScene:
+    viewed = open_models([source], **options) if is_file(source) else viewed_of(source)
     if viewed is None:
         raise InvalidArgumentError(
             f"models must be paths, scenes, nodes, meshes or points, not {type(source).__name__}"

@@ -1,4 +1,4 @@
-"""COLLADA and other formats read by the optional package trimesh.
+"""Packed COLLADA and other formats read by the optional package trimesh.
 
 In: the bytes of a file. Out: a `Document` with one object for each node. trimesh and its libraries
 run in a separate process, see `limited_process`: a few hundred bytes can make them use any amount
@@ -26,11 +26,11 @@ from ..reading.warning_list import WarningList
 from ..reading.zip_archives import ZIP, ZipArchive
 
 # Formats that trimesh reads by itself, and with further packages.
-_EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3dxml", ".xaml")
+_EXTENSIONS = (".xyz", ".dxf", ".zae", ".3dxml", ".xaml")
 # Signatures of formats, if known.
 _BEGINNINGS = {
     **dict.fromkeys(("3dxml", "zae"), ZIP),
-    **dict.fromkeys(("dae", "xaml"), b"<"),
+    "xaml": b"<",
 }
 # Characters of trimesh's messages that are passed on.
 _SAID = 200
@@ -133,7 +133,7 @@ def _said(warnings: WarningList) -> Iterator[None]:
 def _check_beginning(source: Source, kind: str) -> None:
     """Refuse files of another format; trimesh's own errors would mislead."""
     head = source.head(64)
-    is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
+    is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind == "xaml"
     if not is_marked and not head.lstrip().startswith(_BEGINNINGS.get(kind, b"")):
         raise FileFormatError(f"not a {kind} file", source.path)
 
@@ -178,7 +178,7 @@ def _image(source: Source) -> bytes:
 READERS = (
     Reader(
         "trimesh",
-        "COLLADA, DXF and others, through trimesh",
+        "packed COLLADA, DXF and others, through trimesh",
         "mesh",
         _EXTENSIONS,
         read_with_trimesh,

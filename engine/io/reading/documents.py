@@ -19,8 +19,11 @@ from .json_values import JsonValue
 
 if TYPE_CHECKING:
     from ...choices import Interpolation, MotionPath
+    from ...model.motion.joints import JointForm, JointValue
     from ...model.scene.scene import Scene
 
+# Formats with trees that do not say which sides of their faces are visible.
+_WITHOUT_SIDES = ("dae", "urdf")
 #: The parts of a node's pose, as keywords of `Scene.add`.
 Place: TypeAlias = dict[str, Any]
 
@@ -359,6 +362,42 @@ class NodeRecord:
 
 
 @dataclass(frozen=True, eq=False)
+class JointRecord:
+    """A joint between two nodes of a tree.
+
+    Attributes
+    ----------
+    form : JointForm
+    parent, child : int
+        Node numbers in the tree; the child is below the parent.
+    """
+
+    form: JointForm
+    parent: int
+    child: int
+
+
+@dataclass(frozen=True, eq=False)
+class RobotRecord:
+    """The links and joints of a tree.
+
+    Attributes
+    ----------
+    name : str
+    links : tuple of int
+        Node numbers in the tree.
+    joints : tuple of JointRecord
+    values : dict of str to JointValue
+        Where the joints stand; those that are missing, at rest.
+    """
+
+    name: str
+    links: tuple[int, ...]
+    joints: tuple[JointRecord, ...]
+    values: dict[str, JointValue] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
 class TreeRecord:
     """The tree of a file: its nodes and their objects, each once.
 
@@ -381,6 +420,8 @@ class TreeRecord:
     variants : tuple of str
         Names of the material variants.
     extras : object
+    robot : RobotRecord or None
+        The joints that move the nodes.
     """
 
     nodes: tuple[NodeRecord, ...] = ()
@@ -394,6 +435,7 @@ class TreeRecord:
     made_materials: dict[int, tuple[Material, ...]] = field(default_factory=dict)
     variants: tuple[str, ...] = ()
     extras: Any = None
+    robot: RobotRecord | None = None
 
     def parts(self, node: NodeRecord) -> tuple[MeshRecord, ...]:
         """Return the parts of a node's mesh; none if it has no mesh."""
@@ -446,6 +488,16 @@ class Document:
     arrays: dict[str, list[str]] = field(default_factory=dict)
     up: str = "+Y"
     made: Scene | None = None
+
+    @property
+    def has_joints(self) -> bool:
+        """Whether the file holds a robot."""
+        return self.tree is not None and self.tree.robot is not None
+
+    @property
+    def states_sides(self) -> bool:
+        """Whether the format defines which sides of its faces are visible."""
+        return self.tree is not None and self.format not in _WITHOUT_SIDES
 
     @property
     def is_scene(self) -> bool:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...base.calls import checks_types
+from ...base.calls import checks_types, keywords_of
 from ...base.validation import flag
 from ...errors import FileFormatError, InvalidArgumentError, warn
 from ...model.geometry.creases import CREASE_ANGLE, check_crease_angle
@@ -22,6 +22,7 @@ from .documents import Document
 from .extents import extent_warnings
 from .linked_files import checked_root
 from .reader_registry import find_reader
+from .robot_options import RobotOptionError, RobotOptions, check_robot, robot_options
 from .sources import File, Source, read_source
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ def load_mesh(
     progress: Progress | None = None,
     crease_angle: float = CREASE_ANGLE,
     root: str | os.PathLike[str] | None = None,
+    **robot: Unpack[RobotOptions],
 ) -> Mesh:
     """Load a model as one mesh with its materials, in the file's coordinates.
 
@@ -66,7 +68,11 @@ def load_mesh(
     root : path-like, optional
         A second folder, besides the model's own, in which files named in the model are allowed,
         such as images in ``../images``. Relative names are also searched there. For a model given
-        as bytes, it is the only folder searched.
+        as bytes, it is the only folder searched. For a robot, it may hold packages.
+    **robot
+        Of robots (URDF): ``joints``, a dict of names and values, where joints stand (radians of
+        turning, metres of sliding ones, others as in `Robot.set_joint`; 0 by default); and
+        ``shapes``, ``"visual"`` (the default), ``"collision"`` or ``"both"``: what shows the links.
 
     Returns
     -------
@@ -83,9 +89,10 @@ def load_mesh(
     InvalidArgumentError
         ``format`` is unknown, or ``path`` has a wrong type.
     """
+    given = robot_options("load_mesh", keywords_of(load_mesh), robot)
     root = checked_root(root)
     with read_source(path) as source:
-        source = source._replace(crease_angle=check_crease_angle(crease_angle), root=root)
+        source = source._replace(crease_angle=check_crease_angle(crease_angle), root=root, **given)
         document = _read_document(source, format, progress, split=False)
     return whole_mesh(document, source, format)
 
@@ -100,6 +107,7 @@ def load_document(
     crease_angle: float = CREASE_ANGLE,
     values: bool = True,
     root: str | os.PathLike[str] | None = None,
+    **robot: Unpack[RobotOptions],
 ) -> Document:
     """Load everything in a model file: its objects one by one, lights and cameras.
 
@@ -114,12 +122,14 @@ def load_document(
         Whether to read custom numbers of vertices and faces into ``mesh.values``: properties of PLY
         files, attributes of glTF files whose names begin with ``_``.
     """
+    given = robot_options("load_document", keywords_of(load_document), robot)
     root = checked_root(root)
     with read_source(path) as source:
         source = source._replace(
             crease_angle=check_crease_angle(crease_angle),
             values=flag(values, "values"),
             root=root,
+            **given,
         )
         if companion is not None:
             source = source._replace(companion=companion)
@@ -232,6 +242,7 @@ def _read_document(
     if progress is not None:
         source = source._replace(progress=progress)
     document = document_of(source, format, split=split)
+    check_robot(source, document)
     for message in document.warnings:
         warn(message)
     return document
@@ -246,7 +257,7 @@ def document_of(source: Source, format: str | None, *, split: bool) -> Document:
     with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
         document = reader.read(source, split=split)
         document.warnings.extend(extent_warnings(document))
-    document.up = reader.up
+    document.up = reader.up or document.up
     source.progress(1.0)
     return document
 
@@ -274,5 +285,7 @@ def _faults_of(source: Source) -> Iterator[None]:
     try:
         with _memory_of(source):
             yield
+    except RobotOptionError as error:
+        raise RobotOptionError(f"{source.path}: {error}") from None
     except InvalidArgumentError as error:  # a count exceeds what a mesh can hold
         raise FileFormatError(str(error), source.path) from error

@@ -51,7 +51,7 @@ class Reader(NamedTuple):
     read_linear : callable, optional
         For images whose pixels are light: as ``read``, with codes proportional to light.
     up : str
-        The format's usual up axis.
+        The format's usual up axis; empty if each file states its own, in `Document.up`.
     """
 
     name: str

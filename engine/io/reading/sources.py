@@ -10,12 +10,14 @@ from __future__ import annotations
 import os
 import stat
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ...base.system import AT_ONCE, READ
+from ...choices import ShapesOf
 from ...errors import FileAccessError, FileFormatError, InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE
 from ..addresses.url_names import file_part, folder_of, is_url
@@ -75,6 +77,10 @@ class Source(NamedTuple):
         Whether to read custom numbers into ``Mesh.values``.
     root : str or None
         A second folder, besides the model's own, for files named in the model.
+    joints : mapping of str to value
+        Where the joints of a robot stand.
+    shapes : {"visual", "collision", "both"}
+        What shows the links of a robot.
     is_on_disk : bool
         Whether the file at the path holds these very bytes.
     """
@@ -86,6 +92,8 @@ class Source(NamedTuple):
     crease_angle: float = CREASE_ANGLE
     values: bool = True
     root: str | None = None
+    joints: Mapping[str, Any] = MappingProxyType({})
+    shapes: ShapesOf = "visual"
     is_on_disk: bool = False
 
     def __enter__(self) -> Source:

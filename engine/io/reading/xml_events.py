@@ -28,6 +28,7 @@ def read_xml(
     end: Callable[[str], object],
     path: str,
     part: str = "",
+    text: Callable[[str], object] | None = None,
 ) -> None:
     """Call ``begin(name, attributes, place)`` and ``end(name)`` for each element, in order.
 
@@ -39,6 +40,8 @@ def read_xml(
         namespace; ``place`` is the offset in the text. They may raise `XmlFault`.
     path, part : str
         The file for messages, and the part of it that the text is.
+    text : callable, optional
+        Called with each piece of text, in order.
 
     Raises
     ------
@@ -65,6 +68,9 @@ def read_xml(
 
     parser.StartElementHandler, parser.EndElementHandler = enter, leave
     parser.StartDoctypeDeclHandler = refuse
+    if text is not None:
+        parser.buffer_text = True
+        parser.CharacterDataHandler = text
     try:
         for piece in pieces:
             parser.Parse(piece, False)

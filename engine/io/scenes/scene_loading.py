@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,6 +26,11 @@ from ..reading.sources import File
 from .scene_records import fill_scene
 from .tree_records import choose_variant, fill_from_tree
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ..reading.robot_options import RobotOptions
+
 
 @checks_types
 def load_scene(
@@ -35,6 +41,7 @@ def load_scene(
     variant: str | int | None = None,
     crease_angle: float = CREASE_ANGLE,
     root: str | os.PathLike[str] | None = None,
+    **robot: Unpack[RobotOptions],
 ) -> Scene:
     """Load a file with all its objects, lights, cameras, skins and animations.
 
@@ -51,20 +58,26 @@ def load_scene(
         the standard materials.
     crease_angle : float, optional
         As in `load_mesh`.
-    root : path-like, optional
+    root, **robot
         As in `load_mesh`.
 
     Returns
     -------
     scene : Scene
-        In the file's coordinates; ``scene.warnings`` lists what was omitted or replaced.
+        In the file's coordinates; ``scene.warnings`` lists what was omitted or replaced, and
+        ``scene.robots`` has the robot of a URDF file.
 
     Raises
     ------
     FileFormatError, FileAccessError, InvalidArgumentError
     """
     document = load_document(
-        path, format=format, progress=progress, crease_angle=crease_angle, root=root
+        path,
+        format=format,
+        progress=progress,
+        crease_angle=crease_angle,
+        root=root,
+        **robot,
     )
     return scene_from_document(document, variant)
 
@@ -85,7 +98,8 @@ def scene_from_document(document: Document, variant: str | int | None = None) ->
     if document.made is not None:
         return scene
     if document.tree is not None:
-        scene.ambient = (0, 0, 0)  # glTF has no ambient light
+        if document.states_sides:
+            scene.ambient = (0, 0, 0)  # glTF has no ambient light
         fill_from_tree(scene, document.tree)
         return scene
     if document.scene is not None:

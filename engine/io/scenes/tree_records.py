@@ -33,6 +33,7 @@ from ..reading.documents import (
     NodeRecord,
     Place,
     PropertyRecord,
+    RobotRecord,
     SkinRecord,
     TreeRecord,
 )
@@ -133,6 +134,8 @@ class _Filling:
         for node in shown_nodes(self._tree):
             self._add(node.number, self._nodes.get(node.parent))
         self._add_skins()
+        if self._tree.robot is not None:
+            self._add_robot(self._tree.robot)
         for number, clip in enumerate(self._tree.clips):
             self._add_clip(clip, number)
 
@@ -220,6 +223,15 @@ class _Filling:
             weights = (*weights[:count], *(0.0,) * (count - len(weights)))
             for node in shows:
                 node.morph_weights = weights
+
+    def _add_robot(self, record: RobotRecord) -> None:
+        from ...model.motion.robots import Robot
+
+        nodes = self._nodes
+        joints = [(joint.form, nodes[joint.parent], nodes[joint.child]) for joint in record.joints]
+        links = [nodes[number] for number in record.links]
+        name = record.name or "robot"
+        self._scene.data.robots[name] = Robot(name, links, joints, record.values)
 
     def _add_skins(self) -> None:
         for index, shows in self._parts.items():

@@ -12,7 +12,7 @@ import numpy as np
 from ...base.calls import checks_types
 from ...model.scene.orbiting import home_axes
 from ...model.scene.scene import Scene
-from ..formats.threemf.threemf_model import UNITS
+from ..formats.threemf.threemf_model import METRES
 from ..reading.loading import load_document
 from ..reading.sources import File
 from .scene_loading import scene_from_document
@@ -20,7 +20,6 @@ from .scene_loading import scene_from_document
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_METRES = {symbol: metres for metres, symbol in UNITS.values()}
 _UP = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
 
@@ -79,7 +78,7 @@ def stand_upright(scene: Scene, up: str, unit: str = "") -> None:
 
 def _upright_pose(up: str, unit: str) -> NDArray[np.float64] | None:
     """Return the pose that turns a file's up direction to +Y and its unit to metres, or None."""
-    scale = _METRES.get(unit, 1.0)
+    scale = METRES.get(unit, 1.0)
     if up == "+Y" and scale == 1.0:
         return None
     direction = np.array(_UP[up[1]]) * (1.0 if up[0] == "+" else -1.0)

@@ -53,6 +53,8 @@ def copied_scene(scene: Scene) -> Scene:
     for node in scene.nodes:
         _complete(copies.of(node), node, copies)
     made.animations = {name: _copied_clip(c, copies) for name, c in scene.animations.items()}
+    for name, robot in scene.robots.items():
+        made.data.robots[name] = robot._copied_to(copies.of)
     if scene.animator is not None:
         made.animator = scene.animator._copied_to(made, copies.of)
     made.warnings = list(scene.warnings)

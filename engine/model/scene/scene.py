@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 import numpy as np
@@ -33,6 +34,7 @@ from .surroundings import Surroundings
 
 if TYPE_CHECKING:
     from ..motion.clips import AnimationClip
+    from ..motion.robots import Robot
     from .animation import Animator
     from .nodes import SceneObject
 
@@ -72,6 +74,8 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         Fog, in modes "lit" and "unlit".
     animations : dict of str to AnimationClip
         The file's clips by name, for an `AnimationPlayer`.
+    robots : mapping of str to Robot
+        The file's robots by name, whose joints move nodes; read-only.
     warnings : list of str
         The loader's warnings: what it omitted or replaced.
     animator : Animator or None
@@ -109,6 +113,11 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         from ..motion.clips import check_clips
 
         self._animations = CheckedDict(self, _take_animations, check_clips(value))
+
+    @property
+    def robots(self) -> Mapping[str, Robot]:
+        """The robots of the file by name, read-only; see `Robot`."""
+        return MappingProxyType(self.data.robots)
 
     @property
     def animator(self) -> Animator | None:

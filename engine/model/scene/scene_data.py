@@ -38,6 +38,7 @@ from .nodes import Node
 if TYPE_CHECKING:
     from ..materials.material import Finish, Material
     from ..materials.textures import Reading
+    from ..motion.robots import Robot
     from ..motion.skins import Skin
     from .nodes import SceneObject
     from .scene import Scene
@@ -62,6 +63,8 @@ class SceneData:
         The nodes with deformed meshes; None until there is one.
     cameras, lights, colliders : dict of int to Node
         The nodes that hold one, by ID, in the order of adding.
+    robots : dict of str to Robot
+        The robots whose links are nodes, by name.
     placed_colliders : object
         Data of collider_queries.py about the colliders; None once they change.
     removals : int
@@ -89,6 +92,7 @@ class SceneData:
         self.cameras: dict[int, Node] = {}
         self.lights: dict[int, Node] = {}
         self.colliders: dict[int, Node] = {}
+        self.robots: dict[str, Robot] = {}
         self.placed_colliders: Any = None
         self.removals = self.renames = 0
         self._ids = itertools.count()

@@ -63,6 +63,7 @@ def _add_info(command: argparse.ArgumentParser) -> None:
         "--json", action="store_true", help="print JSON: a list where there are several files"
     )
     input_options.add_root(command)
+    input_options.add_robot(command)
 
 
 def _add_completion(command: argparse.ArgumentParser) -> None:

@@ -16,7 +16,7 @@ from ....io.writers import formats, save_mesh
 from ....io.writing.saving import write
 from ....io.writing.writer_registry import find_writer, plugin_writer, writers
 from ..loading_bar import LoadingBar
-from ..options.input_options import model_file
+from ..options.input_options import model_file, of_robot
 from ..outputs import (
     STANDARD_OUTPUT,
     check_folder,
@@ -45,7 +45,7 @@ def convert(args: argparse.Namespace) -> int:
     else:
         convert = _with_plugin if find_writer(extension, extension).of_scenes else _mesh
     with LoadingBar() as progress:
-        how = {"progress": progress, "root": args.root}
+        how = {"progress": progress, "root": args.root, **of_robot(args)}
         save = convert(model_file(args.model), how, args.format, extension, options)
     if output == STANDARD_OUTPUT:
         stream = io.BytesIO()

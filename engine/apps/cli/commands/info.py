@@ -13,12 +13,12 @@ import warnings
 from ....base.linalg import transform_points
 from ....errors import Engine3DError, Engine3DWarning, printable
 from ....io.loaders import load_document
-from ....io.reading.documents import Document, TreeRecord
+from ....io.reading.documents import Document, JointRecord, TreeRecord
 from ....io.scenes.tree_totals import rest_bounds, triangle_count
 from ....model.geometry.mesh import Mesh
 from ....model.materials.material import Material, textures_of
 from ..loading_bar import LoadingBar
-from ..options.input_options import model_files
+from ..options.input_options import model_files, of_robot
 from ..usage import UsageError
 
 
@@ -32,7 +32,7 @@ def info(args: argparse.Namespace) -> int:
     reports, failures = [], 0
     for file in model_files(args.models):
         try:
-            report = describe(file, args.root)
+            report = describe(file, args.root, **of_robot(args))
         except Engine3DError as error:
             if len(args.models) == 1:
                 raise
@@ -56,15 +56,15 @@ def _info_of_system(as_json: bool) -> int:
     return 0
 
 
-def describe(path, root: str | None = None) -> dict:
+def describe(path, root: str | None = None, **of_robot) -> dict:
     """Return the contents of a file as JSON types.
 
     Parameters
     ----------
     path : path-like or binary file object
         A file of any format that `engine3d.loaders` reads.
-    root : str, optional
-        As in `load_mesh`.
+    root, **of_robot
+        As in `load_mesh`: ``joints`` and ``shapes``.
 
     Returns
     -------
@@ -73,12 +73,12 @@ def describe(path, root: str | None = None) -> dict:
         ``triangles`` (as drawn, each instance's counted),
         ``bounds`` (lowest and highest coordinates, at rest; None where there is no vertex),
         ``objects``, ``nodes`` and ``meshes`` (how many the file has), ``materials``, ``variants``,
-        ``lights``, ``cameras``, ``skins``, ``animations``, ``arrays`` (what ``--coloring-array``
-        can name, of vertices and of faces), ``warnings``.
+        ``lights``, ``cameras``, ``skins``, ``animations``, ``joints`` (of robots), ``arrays`` (what
+        ``--coloring-array`` can name, of vertices and of faces), ``warnings``.
     """
     with LoadingBar() as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
-        document = load_document(path, progress=progress, values=False, root=root)
+        document = load_document(path, progress=progress, values=False, root=root, **of_robot)
     return {
         "file": path.name if hasattr(path, "read") else str(path),
         "format": document.format,
@@ -113,6 +113,7 @@ def _of_tree(tree: TreeRecord) -> dict:
         "lights": [light.kind for light in tree.lights],
         "cameras": len(tree.cameras),
         "skins": [{"joints": len(skin.joints)} for skin in tree.skins],
+        "joints": [] if tree.robot is None else [_of_joint(j, tree) for j in tree.robot.joints],
         "animations": [
             {"name": clip.name or None, "duration": clip.duration} for clip in tree.clips
         ],
@@ -133,7 +134,20 @@ def _of_objects(document: Document) -> dict:
         "lights": [light.kind for light in document.lights],
         "cameras": len(document.cameras),
         "skins": [],
+        "joints": [],
         "animations": [],
+    }
+
+
+def _of_joint(joint: JointRecord, tree: TreeRecord) -> dict:
+    form = joint.form
+    return {
+        "name": form.name,
+        "type": form.kind,
+        "parent": tree.nodes[joint.parent].name,
+        "child": tree.nodes[joint.child].name,
+        "limits": form.limits and list(form.limits),
+        "mimic": form.mimic and form.mimic[0],
     }
 
 
@@ -194,8 +208,18 @@ def report_lines(report: dict) -> list[str]:
     if report["cameras"]:
         lines.append(f"cameras: {report['cameras']}")
     lines += [f"skin: {skin['joints']:,d} joints" for skin in report["skins"]]
+    lines += map(_joint_line, report["joints"])
     for number, clip in enumerate(report["animations"]):
         lines.append(f"animation {clip['name'] or number}: {clip['duration']:g} s")
     lines += [f"arrays of {kind}: {', '.join(names)}" for kind, names in report["arrays"].items()]
     lines += [f"warning: {warning}" for warning in report["warnings"]]
     return lines
+
+
+def _joint_line(joint: dict) -> str:
+    unit = "m" if joint["type"] == "prismatic" else "rad"
+    limits = "" if joint["limits"] is None else "{:g} to {:g} ".format(*joint["limits"]) + unit
+    follows = "" if joint["mimic"] is None else f"follows {joint['mimic']}"
+    words = [f"joint {joint['name']}: {joint['type']}", limits, follows]
+    ends = f"{joint['parent']} -> {joint['child']}"
+    return ", ".join(filter(None, [*words, ends]))

@@ -11,7 +11,7 @@ from ....errors import InvalidArgumentError
 from ....model.materials.material import Material
 from ...sheet.contact_sheet import Sheet, contact_sheet
 from ...sheet.views import DEFAULT_VIEWS, check_views
-from ..options.input_options import model_files
+from ..options.input_options import model_files, of_robot
 from ..options.picture_options import look
 from ..options.scalar_options import marks
 from ..outputs import (
@@ -36,6 +36,7 @@ def sheet(args: argparse.Namespace) -> int:
         up=args.up,
         unit=args.unit,
         root=args.root,
+        **of_robot(args),
         look=look(args),
         material=None if args.color is None else Material(color=args.color),
         **marks(args),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ....base.plugins.open_choices import OpenChoices
-from .input_options import add_root
+from .input_options import add_robot, add_root
 
 MODEL_FORMATS = ("glb", "gltf", "obj", "ply", "stl")
 
@@ -27,4 +27,5 @@ def add(command) -> None:
         "writes; OBJ with materials is several files, and does not go to standard output",
     )
     add_root(command)
+    add_robot(command)
     command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")

@@ -10,8 +10,9 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
-from typing import BinaryIO
+from typing import BinaryIO, get_args
 
+from ....choices import ShapesOf
 from ....errors import FileAccessError, FileFormatError
 from ....io.addresses.url_names import is_url
 from .. import values
@@ -49,6 +50,30 @@ def add_inputs(group) -> None:
         help="refuse files of more mebibytes than this",
     )
     add_root(group)
+    add_robot(group)
+
+
+def add_robot(group) -> None:
+    """Add the options for robots."""
+    group.add_argument(
+        "--joint",
+        type=values.joint,
+        action="append",
+        metavar="NAME=VALUE",
+        help="where a joint of a robot (URDF) stands: radians, or degrees as in elbow=30deg; "
+        "metres of one that slides; several numbers with commas. May be given several times",
+    )
+    group.add_argument(
+        "--shapes",
+        choices=get_args(ShapesOf),
+        help="what shows the links of a robot: visual by default",
+    )
+
+
+def of_robot(args: argparse.Namespace) -> dict:
+    """Return the given options of robots, as arguments for loading."""
+    given = {} if args.joint is None else {"joints": dict(args.joint)}
+    return given if args.shapes is None else {**given, "shapes": args.shapes}
 
 
 def add_root(group) -> None:

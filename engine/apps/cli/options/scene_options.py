@@ -11,7 +11,7 @@ from ..loading_bar import LoadingBar
 from ..outputs import not_the_output
 from ..usage import UsageError
 from . import scalar_options
-from .input_options import add_inputs, check_inputs, model_files
+from .input_options import add_inputs, check_inputs, model_files, of_robot
 
 if TYPE_CHECKING:
     from ....model.materials.material import Material
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 #: Options about reading or dressing models, which built-in scenes do not have.
 OF_MODELS = (
     *("texture", "variant", "animation_index", "animation_time", "crease_angle"),
-    *("force_reader", "max_size", "root", *scalar_options.COLORING),
+    *("force_reader", "max_size", "root", "joint", "shapes", *scalar_options.COLORING),
 )
 
 
@@ -170,6 +170,7 @@ def opening(args: argparse.Namespace) -> dict:
     creases = {} if args.crease_angle is None else {"crease_angle": args.crease_angle}
     return {
         **creases,
+        **of_robot(args),
         "format": args.force_reader,
         "root": args.root,
         "numbers": scalar_options.coloring(args),

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from .. import values
 from .camera_options import add_up
-from .input_options import add_root
+from .input_options import add_robot, add_root
 from .picture_options import add_drawing, add_look
 from .scalar_options import add_scalars
 from .scene_options import add_color
@@ -59,6 +59,7 @@ def add(parser) -> None:
         "--unit", metavar="NAME", help="unit of lengths, where the file's format has none"
     )
     add_root(group)
+    add_robot(group)
     add_up(group)
     add_color(group)
     add_scalars(parser)

@@ -30,6 +30,8 @@ UNITS = {
     "foot": (0.3048, "ft"),
     "meter": (1.0, "m"),
 }
+#: The symbol of a unit -> metres.
+METRES = {symbol: metres for metres, symbol in UNITS.values()}
 _MOST_INDEX = 2**31 - 1
 # Elements without effect on the appearance.
 _SILENT = frozenset({"metadata", "metadatagroup"})

@@ -1,0 +1,1 @@
+"""COLLADA: meshes of robots and of older programs, as XML."""

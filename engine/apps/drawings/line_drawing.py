@@ -24,8 +24,9 @@ from .surfaces import Surfaces
 _THICKNESS = 2.0**-21
 #: Triangles reach beyond their sides by this share of that, so that no line shows through a seam.
 _REACH = 0.25
-#: Lines within this share of the frame from each other are one stroke.
-_ONE_STROKE = 1e-5
+#: Lines that lie within so many millimetres of each other are one stroke, but not more than a share
+#: of the frame.
+_ONE_STROKE, _MOST_SHARE = 0.02, 1e-4
 
 
 class Pieces(NamedTuple):
@@ -98,7 +99,7 @@ def find_pieces(
         Whether parts that run through each other have lines there.
     threads : int
     more_lines : list of Lines
-        Other lines to draw.
+        Other lines to draw, perhaps on the near plane.
     caps : list of (N, 3, 3) float64
         Other triangles that hide.
     """
@@ -108,40 +109,31 @@ def find_pieces(
     planes = projection.planes(bounds)
     places, faces, sources = clip_triangles(surfaces.places, surfaces.faces, planes)
     thickness = _THICKNESS * float(np.abs(bounds).max())
-    lines = [edge_lines(surfaces, projection.eye()), *(more_lines or [])]
+    lines = [edge_lines(surfaces, projection.eye())]
     if intersections and len(surfaces.names) > 1:
         parts = surfaces.parts[sources]
         lines.append(intersection_lines(places, faces, parts, thickness, threads))
+    lines = [clipped(each, planes) for each in lines]
+    # What a section has in its plane lies on the near plane, which must not cut it off.
+    lines += [clipped(each, planes[1:]) for each in more_lines or []]
     for cap in caps or []:
         corners = np.arange(3 * len(cap), dtype=np.int32).reshape(-1, 3) + len(places)
         faces = np.concatenate([faces, corners.astype(np.int32)])
         places = np.concatenate([places, cap.reshape(-1, 3)])
     hiders = Hiders(places, faces, thickness)
-    return hidden_pieces(joined_lines(lines), hiders, projection, planes, threads)
+    seen = clipped(joined_lines(lines), projection.sides())
+    return hidden_pieces(seen, hiders, projection, threads)
 
 
-def hidden_pieces(
-    lines: Lines,
-    hiders: Hiders,
-    projection: Projection,
-    planes: NDArray[np.float64],
-    threads: int,
-) -> Pieces:
-    """Return the pieces of lines before and behind triangles, each stroke once.
+def clipped(lines: Lines, planes: NDArray[np.float64]) -> Lines:
+    """Return what is left of lines before planes."""
+    ends, sources = clip_lines(lines.ends, planes)
+    return Lines(ends, lines.kinds[sources], lines.parts[sources])
 
-    Parameters
-    ----------
-    lines : Lines
-    hiders : Hiders
-        Clipped by the planes.
-    projection : Projection
-    planes : (K, 4) float64
-        Those before which something is drawn.
-    threads : int
-    """
-    ends, sources = clip_lines(lines.ends, np.concatenate([planes, projection.sides()]))
-    lines = Lines(ends, lines.kinds[sources], lines.parts[sources])
-    line_paper = projection.on_paper(ends.reshape(-1, 3)).reshape(-1, 2, 4)
+
+def hidden_pieces(lines: Lines, hiders: Hiders, projection: Projection, threads: int) -> Pieces:
+    """Return the pieces of lines before and behind triangles, each stroke once."""
+    line_paper = projection.on_paper(lines.ends.reshape(-1, 3)).reshape(-1, 2, 4)
     reach = _REACH * hiders.thickness * projection.scale_at(line_paper[..., 2])
     found = native.hide_lines(
         hiders.places,
@@ -150,13 +142,14 @@ def hidden_pieces(
         projection.eye(),
         hiders.thickness,
         reach,
-        ends,
+        lines.ends,
         line_paper,
         4.0 * reach,
         threads,
     )
     pieces = _pieces_of(found, line_paper[..., :2], lines)
-    return _each_once(pieces, max(_ONE_STROKE * max(projection.size), 2.0 * reach), threads)
+    nearness = min(_ONE_STROKE, _MOST_SHARE * max(projection.size))
+    return _each_once(pieces, max(nearness, 2.0 * reach), threads)
 
 
 def _pieces_of(found: NDArray[np.void], paper: NDArray[np.float64], lines: Lines) -> Pieces:

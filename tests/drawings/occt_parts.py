@@ -139,7 +139,9 @@ def pipe():
 
 
 def ball():
-    return cut(fuse(sphere(20), cylinder(9, 60, (-30, 0, 0), (1, 0, 0))), cylinder(6, 80, (0, 0, -40)))
+    return cut(
+        fuse(sphere(20), cylinder(9, 60, (-30, 0, 0), (1, 0, 0))), cylinder(6, 80, (0, 0, -40))
+    )
 
 
 def plate():
@@ -237,6 +239,6 @@ def _segments(shapes, count=1):
             curve = BRepAdaptor_Curve(TopoDS.Edge(explorer.Current()))
             steps = np.linspace(curve.FirstParameter(), curve.LastParameter(), count + 1)
             points = [(point.X(), point.Y()) for point in map(curve.Value, steps.tolist())]
-            found += zip(points, points[1:])
+            found += zip(points, points[1:], strict=False)
             explorer.Next()
     return np.array(found).reshape(-1, 2, 2)

@@ -6,6 +6,7 @@ Where a breach is to stay, a comment says why.
 # Keywords are what users write. Those of compat.pyrender are pyrender's own.
 LONG_SIGNATURES = (
     "apps.batch.running.run",
+    "apps.drawings.drawing_sheet.drawing_sheet",
     "apps.sheet.contact_sheet.contact_sheet",
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",

@@ -54,8 +54,10 @@ drw_span drw_columns(const drw_grid *grid, const double *item, int corners, int3
         if (most(a[1], b[1]) < top || least(a[1], b[1]) > bottom)
             continue;
         double run = b[0] - a[0], rise = b[1] - a[1];
-        double x0 = a[1] < top ? a[0] + run * ((top - a[1]) / rise) : a[1] > bottom ? a[0] + run * ((bottom - a[1]) / rise) : a[0];
-        double x1 = b[1] < top ? a[0] + run * ((top - a[1]) / rise) : b[1] > bottom ? a[0] + run * ((bottom - a[1]) / rise) : b[0];
+        double x0 = a[1] < top ? a[0] + run * ((top - a[1]) / rise) : a[1] > bottom ? a[0] + run * ((bottom - a[1]) / rise)
+                                                                                    : a[0];
+        double x1 = b[1] < top ? a[0] + run * ((top - a[1]) / rise) : b[1] > bottom ? a[0] + run * ((bottom - a[1]) / rise)
+                                                                                    : b[0];
         low = least(low, least(x0, x1));
         high = most(high, most(x0, x1));
     }

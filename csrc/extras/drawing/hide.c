@@ -199,7 +199,8 @@ static int is_hidden(const hider *by, const sight *line, const e3d_hiders *all, 
     for (int k = 0; k < 2; k++) {
         over[k] = share(at[0], at[1], ends[k]);
         double limit = all->thickness * share(line->inverse_w[0], line->inverse_w[1], ends[k]);
-        sign[k] = over[k] < -limit ? -1 : over[k] > limit ? 1 : 0;
+        sign[k] = over[k] < -limit ? -1 : over[k] > limit ? 1
+                                                          : 0;
     }
     if (sign[0] >= 0 && sign[1] >= 0)
         return 0;

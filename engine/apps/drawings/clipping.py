@@ -50,7 +50,7 @@ def _cut(
     inside: NDArray[np.bool_],
     plane: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:
-    """Return the places with new ones behind, the triangles left of crossing ones, their sources."""
+    """Return the places with new ones behind, what is left of triangles, and their sources."""
     is_single = inside.sum(axis=1) == 1
     # The corner that is alone on its side comes first.
     alone = np.argmax(inside == is_single[:, np.newaxis], axis=1)

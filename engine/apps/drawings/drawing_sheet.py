@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -15,17 +15,18 @@ from ..._native.rasterizer import thread_count
 from ...base.angles import limited_angle
 from ...base.calls import checks_types
 from ...base.validation import choose, positive
+from ...choices import LengthUnit, PageSize
 from ...errors import InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from ..sheet.opening import open_sources
 from ..sheet.views import DEFAULT_VIEWS, check_views
-from .drawing import write_page
+from .line_drawing import write_page
 from .paper import Page
 from .pdf import pdf_of
-from .sheet_pages import PAGES, Look, SheetPage
+from .sheet_pages import Look, SheetPage
 from .svg import svg_of
-from .units import millimetres, parse_scale, scale_text
+from .units import PAGES, millimetres, parse_scale, scale_text
 
 
 class DrawingSheet:
@@ -76,11 +77,11 @@ def drawing_sheet(
     *,
     views: str | Iterable[str] = DEFAULT_VIEWS,
     sections: str | Iterable[str] = (),
-    page: Literal["A4", "A3", "A2", "A1"] = "A3",
+    page: PageSize = "A3",
     scale: float | str | None = None,
     hidden: bool = False,
     up: str | None = None,
-    unit: str | None = None,
+    unit: LengthUnit | None = None,
     root: str | os.PathLike[str] | None = None,
     crease_angle: float = CREASE_ANGLE,
     intersections: bool = True,
@@ -127,8 +128,8 @@ def drawing_sheet(
     opened = open_sources(model, root)
     if len(opened) != 1:
         raise InvalidArgumentError(f"a page shows one model, not {len(opened)}")
-    unit = opened[0].unit or None if unit is None else unit
-    millimetres(unit)
+    length = unit or opened[0].unit or None
+    millimetres(length)
     chosen = parse_scale(scale) if isinstance(scale, str) else scale
     look = Look(
         hidden,
@@ -137,6 +138,6 @@ def drawing_sheet(
         positive(line_width, "line_width"),
         threads or thread_count(),
     )
-    made = SheetPage(opened[0], up or opened[0].up, unit, look)
+    made = SheetPage(opened[0], up or opened[0].up, length, look)
     given = None if chosen is None else positive(chosen, "scale")
     return DrawingSheet(made.draw(specs, page, given), made.scale)

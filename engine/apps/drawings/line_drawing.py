@@ -1,179 +1,253 @@
-"""Line drawings: `line_drawing` makes one, `LineDrawing` holds it.
+"""`line_drawing` draws a scene as lines, `LineDrawing` holds and writes them.
 
-In: a scene and a camera. Out: strokes on paper, by kind, part and visibility, in millimetres. Which
-stretch of a line a triangle hides is found in closed form, so that lines end exactly where they
-pass behind something; docs/drawings.md tells the method.
+In: whatever `engine3d.render` draws, and a camera. Out: strokes in millimetres, as SVG or PDF.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import os
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..._native import drawing as native
-from .clipping import clip_lines, clip_triangles
-from .kinds import KINDS, LineKind
-from .model_lines import Lines, edge_lines, intersection_lines, joined_lines
-from .projections import Projection
-from .surfaces import Surfaces
+from ..._native.rasterizer import thread_count
+from ...base.angles import limited_angle
+from ...base.calls import checks_types
+from ...base.files.atomic_write import atomic_write, checked_path
+from ...base.image_size import check_size
+from ...base.validation import positive
+from ...choices import LengthUnit, LineKind
+from ...errors import InvalidArgumentError, warn
+from ...model.geometry.creases import CREASE_ANGLE
+from ...model.scene.cameras import Camera
+from ...rendering.camera_choice import CameraChoice, find_camera
+from ...stage.near_origin import pose_from_file
+from ...stage.viewed_scene import ViewedScene
+from ...stage.viewed_thing import comes_from_file, viewed_of
+from ...stage.views.framing import frame_scene
+from .chains import chained
+from .pieces import Pieces, find_pieces
+from .paper import Group, Page, Strokes
+from .pdf import pdf_of
+from .projections import projection_of
+from .styles import Layer, layers
+from .surfaces import surfaces_of
+from .svg import svg_of
+from .units import SUFFIXES, millimetres
 
-#: Lines within this share of the largest coordinate from a plane lie on it. Coordinates are rounded
-#: to 24 bits.
-_THICKNESS = 2.0**-21
-#: Triangles reach beyond their sides by this share of that, so that no line shows through a seam.
-_REACH = 0.25
-#: Lines that lie within so many millimetres of each other are one stroke, but not more than a share
-#: of the frame.
-_ONE_STROKE, _MOST_SHARE = 0.02, 1e-4
-
-
-class Pieces(NamedTuple):
-    """Straight pieces of lines on paper.
-
-    Attributes
-    ----------
-    ends : (N, 2, 2) float64
-        Millimetres from the frame's upper left corner, x right, y down.
-    kinds : (N,) int8
-        Indices of `KINDS`.
-    parts : (N,) int32
-    hidden : (N,) bool
-    """
-
-    ends: NDArray[np.float64]
-    kinds: NDArray[np.int8]
-    parts: NDArray[np.int32]
-    hidden: NDArray[np.bool_]
-
-    def of(self, kind: LineKind | None = None, hidden: bool | None = None) -> Pieces:
-        """Return the pieces of a kind, or those that are hidden, or not."""
-        kept = np.ones(len(self.ends), bool)
-        if kind is not None:
-            kept &= self.kinds == KINDS.index(kind)
-        if hidden is not None:
-            kept &= self.hidden == hidden
-        return Pieces(*(column[kept] for column in self))
-
-    @property
-    def length(self) -> float:
-        """The length of all, in millimetres."""
-        steps = self.ends[:, 1] - self.ends[:, 0]
-        return float(np.sqrt(steps[:, 0] * steps[:, 0] + steps[:, 1] * steps[:, 1]).sum())
+#: Millimetres per pixel: an inch has 96.
+PIXEL = 25.4 / 96.0
 
 
-class Hiders(NamedTuple):
-    """The triangles that hide lines.
+class LineDrawing:
+    """The lines of a scene as a camera sees them; made by `line_drawing`.
 
     Attributes
     ----------
-    places : (V, 3) float64
-    faces : (F, 3) int32
-    thickness : float
-        World units: a line so near a triangle's plane lies on it.
+    size : (float, float)
+        Width and height of the frame in millimetres.
+    pieces : Pieces
+        Straight pieces with their kinds, parts and whether they are hidden.
+    parts : list of str
+        The names of the parts: nodes, and instances.
+    title : str
     """
 
-    places: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    thickness: float
+    def __init__(
+        self, size: tuple[float, float], pieces: Pieces, parts: list[str], title: str
+    ) -> None:
+        self.size, self.pieces, self.parts, self.title = size, pieces, parts, title
+
+    def strokes(self, kind: LineKind, hidden: bool = False) -> list[Strokes]:
+        """Return the polylines of a kind, part by part, in thousandths of a millimetre."""
+        found = self.pieces.of(kind, hidden)
+        order = np.argsort(found.parts, kind="stable")
+        numbers, starts = np.unique(found.parts[order], return_index=True)
+        runs = zip(numbers.tolist(), np.split(found.ends[order], starts[1:]), strict=False)
+        strokes = (Strokes(self.parts[number], chained(ends)) for number, ends in runs)
+        return [one for one in strokes if one.polylines]
+
+    def layers(self, hidden: bool, line_width: float) -> list[tuple[Layer, list[Strokes]]]:
+        """Return the layers that are not empty."""
+        found = (
+            (layer, self.strokes(kind, state)) for kind, state, layer in layers(hidden, line_width)
+        )
+        return [(layer, strokes) for layer, strokes in found if strokes]
+
+    def _page(self, hidden: bool, line_width: float) -> Page:
+        width = positive(line_width, "line_width")
+        view = Group("view", "", self.layers(hidden, width), clip=self.size)
+        return Page(*self.size, self.title, [view])
+
+    @checks_types
+    def svg(self, *, hidden: bool = False, line_width: float = 1.0) -> str:
+        """Return the drawing as SVG, in millimetres.
+
+        Parameters
+        ----------
+        hidden : bool
+            Whether hidden lines are drawn, dashed.
+        line_width : float
+            Factor on the widths of lines; at 1, edges have 0.5 mm and hidden lines 0.25 mm.
+        """
+        return svg_of(self._page(hidden, line_width))
+
+    @checks_types
+    def pdf(self, *, hidden: bool = False, line_width: float = 1.0) -> bytes:
+        """Return the drawing as PDF; parameters as for `svg`."""
+        return pdf_of(self._page(hidden, line_width))
+
+    @checks_types
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        hidden: bool = False,
+        line_width: float = 1.0,
+    ) -> None:
+        """Write the drawing as .svg or .pdf, whole or not at all; parameters as for `svg`.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The suffix is another one.
+        FileAccessError
+        """
+        write_page(path, self._page(hidden, line_width))
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"<LineDrawing {width:.6g} x {height:.6g} mm: {len(self.pieces.ends)} pieces>"
 
 
-@np.errstate(all="ignore")
-def find_pieces(
-    surfaces: Surfaces,
-    projection: Projection,
+def page_bytes(page: Page, suffix: str) -> bytes:
+    """Return a page as the content of a file."""
+    return pdf_of(page) if suffix == ".pdf" else svg_of(page).encode()
+
+
+def write_page(path: str | os.PathLike[str], page: Page) -> None:
+    """Write a page as .svg or .pdf."""
+    suffix = os.path.splitext(checked_path(path))[1].lower()
+    if suffix not in SUFFIXES:
+        raise InvalidArgumentError(
+            f"a line drawing is written as .svg or .pdf, not {checked_path(path)!r}"
+        )
+    with atomic_write(path) as file:
+        file.write(page_bytes(page, suffix))
+
+
+@checks_types
+def line_drawing(
+    scene: Any,
+    camera: CameraChoice = None,
     *,
-    intersections: bool,
-    threads: int,
-    more_lines: list[Lines] | None = None,
-    caps: list[NDArray[np.float64]] | None = None,
-) -> Pieces:
-    """Return the pieces of all lines that a view of surfaces shows.
+    size: tuple[int, int] = (1280, 720),
+    scale: float | None = None,
+    unit: LengthUnit | None = None,
+    crease_angle: float = CREASE_ANGLE,
+    intersections: bool = True,
+    threads: int = 0,
+) -> LineDrawing:
+    """Draw the lines of a file, a scene, a node or a mesh, without hidden ones or with them.
 
     Parameters
     ----------
-    surfaces : Surfaces
-    projection : Projection
+    scene : path-like, Scene, Node, Mesh, InstancedMesh, or another library's object
+        As for `render`.
+    camera : None, Node or (Camera, pose)
+        By default a scene's first camera, else one that shows everything.
+    size : (int, int)
+        Width and height of the frame in pixels, as for `render`; an inch has 96.
+    scale : float, optional
+        The drawing's scale, such as ``1 / 2``, of a parallel projection; the frame then has the
+        size that the camera's view has at this scale.
+    unit : {"mm", "cm", "m", "µm", "in", "ft"}, optional
+        The unit of coordinates; by default that of the file, or millimetres.
+    crease_angle : float
+        Radians. Faces that meet at more than this angle have an edge between them, unless the mesh
+        has normals that are smooth there.
     intersections : bool
         Whether parts that run through each other have lines there.
     threads : int
-    more_lines : list of Lines
-        Other lines to draw, perhaps on the near plane.
-    caps : list of (N, 3, 3) float64
-        Other triangles that hide.
+        0 means all.
+
+    Returns
+    -------
+    LineDrawing
+        The same for any number of threads.
+
+    Raises
+    ------
+    InvalidArgumentError, FileFormatError, FileAccessError, OutOfMemoryError
+
+    Examples
+    --------
+    >>> drawing = line_drawing("part.stl")
+    >>> drawing.save("part.svg", hidden=True)
     """
-    if not len(surfaces.places):
-        return _no_pieces()
-    bounds = _bounds(surfaces.places)
-    planes = projection.planes(bounds)
-    places, faces, sources = clip_triangles(surfaces.places, surfaces.faces, planes)
-    thickness = _THICKNESS * float(np.abs(bounds).max())
-    lines = [edge_lines(surfaces, projection.eye())]
-    if intersections and len(surfaces.names) > 1:
-        parts = surfaces.parts[sources]
-        lines.append(intersection_lines(places, faces, parts, thickness, threads))
-    lines = [clipped(each, planes) for each in lines]
-    # What a section has in its plane lies on the near plane, which must not cut it off.
-    lines += [clipped(each, planes[1:]) for each in more_lines or []]
-    for cap in caps or []:
-        corners = np.arange(3 * len(cap), dtype=np.int32).reshape(-1, 3) + len(places)
-        faces = np.concatenate([faces, corners.astype(np.int32)])
-        places = np.concatenate([places, cap.reshape(-1, 3)])
-    hiders = Hiders(places, faces, thickness)
-    seen = clipped(joined_lines(lines), projection.sides())
-    return hidden_pieces(seen, hiders, projection, threads)
-
-
-def clipped(lines: Lines, planes: NDArray[np.float64]) -> Lines:
-    """Return what is left of lines before planes."""
-    ends, sources = clip_lines(lines.ends, planes)
-    return Lines(ends, lines.kinds[sources], lines.parts[sources])
-
-
-def hidden_pieces(lines: Lines, hiders: Hiders, projection: Projection, threads: int) -> Pieces:
-    """Return the pieces of lines before and behind triangles, each stroke once."""
-    line_paper = projection.on_paper(lines.ends.reshape(-1, 3)).reshape(-1, 2, 4)
-    reach = _REACH * hiders.thickness * projection.scale_at(line_paper[..., 2])
-    found = native.hide_lines(
-        hiders.places,
-        projection.on_paper(hiders.places),
-        hiders.faces,
-        projection.eye(),
-        hiders.thickness,
-        reach,
-        lines.ends,
-        line_paper,
-        4.0 * reach,
-        threads,
+    viewed = viewed_of(scene)
+    if viewed is None:
+        raise InvalidArgumentError(
+            f"scene must be a path, a scene, a node or a mesh, not {type(scene).__name__}"
+        )
+    width, height = check_size(size)
+    viewed.scene.data.update()
+    found = None if camera is None and comes_from_file(scene) else find_camera(viewed.scene, camera)
+    if found is None:
+        found = frame_scene(viewed, aspect=width / height)
+    if comes_from_file(scene):
+        found = found[0], pose_from_file(viewed, found[1])
+    return draw_lines(
+        viewed,
+        found,
+        (width, height),
+        scale=scale,
+        unit=unit,
+        crease_angle=crease_angle,
+        intersections=intersections,
+        threads=threads,
     )
-    pieces = _pieces_of(found, line_paper[..., :2], lines)
-    nearness = min(_ONE_STROKE, _MOST_SHARE * max(projection.size))
-    return _each_once(pieces, max(nearness, 2.0 * reach), threads)
 
 
-def _pieces_of(found: NDArray[np.void], paper: NDArray[np.float64], lines: Lines) -> Pieces:
-    rows = found["line"]
-    a, b = paper[rows, 0], paper[rows, 1]
-    shares = (found[name][:, np.newaxis] for name in ("from", "to"))
-    ends = np.stack([a * (1.0 - share) + b * share for share in shares], axis=1)
-    return Pieces(ends, lines.kinds[rows], lines.parts[rows], found["is_hidden"] != 0)
+def draw_lines(
+    viewed: ViewedScene,
+    view: tuple[Camera, np.ndarray],
+    size: tuple[int, int],
+    *,
+    scale: float | None = None,
+    unit: str | None = None,
+    crease_angle: float = CREASE_ANGLE,
+    intersections: bool = True,
+    threads: int = 0,
+) -> LineDrawing:
+    """Return the drawing of a viewed scene for a camera and its pose, as `line_drawing` does."""
+    angle = limited_angle(crease_angle, "crease_angle", np.pi, "from 0 to pi radians")
+    frame = _frame(view[0], size, scale, unit or viewed.unit)
+    surfaces, omitted = surfaces_of(viewed.scene, angle)
+    for sentence in omitted:
+        warn(sentence)
+    pieces = find_pieces(
+        surfaces,
+        projection_of(*view, frame, size),
+        intersections=intersections,
+        threads=threads or thread_count(),
+    )
+    if not len(pieces.ends):
+        warn(f"{viewed.title}: the drawing shows no lines")
+    return LineDrawing(frame, pieces, surfaces.names, viewed.title)
 
 
-def _each_once(pieces: Pieces, tolerance: float, threads: int) -> Pieces:
-    """Return the pieces without what lies on more important ones: visible ones come first."""
-    order = np.lexsort([pieces.kinds, pieces.hidden])
-    pieces = Pieces(*(column[order] for column in pieces))
-    found = native.hide_repeated(pieces.ends.reshape(-1, 4), tolerance, threads)
-    found = found[found["is_hidden"] == 0]
-    lines = Lines(np.zeros((len(order), 2, 3)), pieces.kinds, pieces.parts)
-    kept = _pieces_of(found, pieces.ends, lines)
-    return kept._replace(hidden=pieces.hidden[found["line"]])
-
-
-def _bounds(places: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.stack([places.min(axis=0), places.max(axis=0)])
-
-
-def _no_pieces() -> Pieces:
-    return Pieces(np.zeros((0, 2, 2)), np.zeros(0, np.int8), np.zeros(0, np.int32), np.zeros(0, bool))
+def _frame(
+    camera: Camera, size: tuple[int, int], scale: float | None, unit: str | None
+) -> tuple[float, float]:
+    """Return the size of the frame in millimetres."""
+    if scale is None:
+        return size[0] * PIXEL, size[1] * PIXEL
+    projection = np.asarray(camera.projection(size))
+    if projection[3, :3].any():
+        raise InvalidArgumentError("scale: only a parallel projection has one")
+    factor = 2.0 * positive(scale, "scale") * millimetres(unit) * float(projection[3, 3])
+    return factor / abs(float(projection[0, 0])), factor / abs(float(projection[1, 1]))

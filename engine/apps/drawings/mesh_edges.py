@@ -120,7 +120,9 @@ def face_normals(
     a, b, c = (positions[faces[:, k]] for k in range(3))
     normals = linalg.cross(b - a, c - a)
     doubled = linalg.length(normals)
-    longest = np.maximum(linalg.length(b - a), np.maximum(linalg.length(c - b), linalg.length(a - c)))
+    longest = np.maximum(
+        linalg.length(b - a), np.maximum(linalg.length(c - b), linalg.length(a - c))
+    )
     limit = FLAT * np.abs(positions).max(initial=0.0)
     return normals / doubled[:, np.newaxis], ~(doubled > limit * longest)
 

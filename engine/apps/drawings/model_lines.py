@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..._native import drawing as native
 from ...base import linalg
-from .kinds import BORDER, CREASE, INTERSECTION, LINE, OUTLINE, SECTION
+from .line_kinds import BORDER, CREASE, INTERSECTION, LINE, OUTLINE, SECTION
 from .mesh_edges import face_normals
 from .surfaces import Surfaces
 
@@ -64,9 +64,7 @@ def edge_lines(surfaces: Surfaces, eye: NDArray[np.float64]) -> Lines:
     kinds = np.where(surfaces.borders[shown], BORDER, CREASE).astype(np.int8)
     kinds[outlines[shown]] = OUTLINE
     places = surfaces.places
-    edges = Lines(
-        places[surfaces.ends[shown]], kinds, surfaces.parts[surfaces.beside[shown, 0]]
-    )
+    edges = Lines(places[surfaces.ends[shown]], kinds, surfaces.parts[surfaces.beside[shown, 0]])
     return joined_lines([edges, lines_of(places[surfaces.lines], LINE, surfaces.line_parts)])
 
 

@@ -1,6 +1,6 @@
 """A page of vectors: strokes in layers, and texts.
 
-In: what a drawing puts on paper. Out: the same as plain records, from which SVG and PDF are written.
+In: what a drawing puts on paper. Out: the same as plain records, of which SVG and PDF are made.
 Places are millimetres from the upper left corner, x right, y down.
 """
 

@@ -1,6 +1,6 @@
 """Writes a page as PDF 1.5 with layers (ISO 32000-1, 8.11), without any other package.
 
-In: a `Page`. Out: bytes, the same for the same page: there is no date, and nothing is compressed, as
+In: a `Page`. Out: bytes, the same for the same page: there is no date, and nothing is compressed:
 compressors differ between machines. Texts are set in Helvetica, which every reader has; letters
 beyond Latin-1 become question marks.
 """

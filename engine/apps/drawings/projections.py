@@ -1,7 +1,7 @@
 """The projection of a camera onto paper.
 
-In: a camera, its pose, the paper's frame. Out: places on the paper and depths; planes that clip; the
-homogeneous point from which all is seen. All is float64, so that drawings are the same everywhere.
+In: a camera, its pose, the paper's frame. Out: places on the paper and depths; planes that clip;
+the homogeneous point from which all is seen. All is float64: drawings are the same everywhere.
 """
 
 from __future__ import annotations
@@ -48,9 +48,7 @@ class Projection(NamedTuple):
 
     def on_paper(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return x, y, 1 / w and depth of places (N, 3) whose w is positive: (N, 4)."""
-        x, y, depth, w = (
-            linalg.dot(places, row[:3]) + row[3] for row in self.clip_from_world
-        )
+        x, y, depth, w = (linalg.dot(places, row[:3]) + row[3] for row in self.clip_from_world)
         width, height = self.size
         inverse = 1.0 / w
         across, down = (x * inverse + 1.0) * (0.5 * width), (1.0 - y * inverse) * (0.5 * height)

@@ -29,20 +29,18 @@ from ..sheet.placing import (
     section_plane,
 )
 from ..sheet.views import ViewSpec
-from .caps import Cap, cap_of
+from .cut_faces import Cap, cap_of
 from .chains import chained
-from .drawing import LineDrawing
-from .line_drawing import find_pieces
+from .line_drawing import LineDrawing
+from .pieces import find_pieces
 from .model_lines import section_lines
 from .paper import Group, Page, Strokes, Text
 from .pdf import text_width
 from .projections import projection_of
 from .styles import FRAME, HATCHING, THIN
 from .surfaces import Surfaces, surfaces_of
-from .units import millimetres, scale_text, usual_scale
+from .units import PAGES, millimetres, scale_text, usual_scale
 
-#: Width and height of pages in millimetres (ISO 216), with the long side level.
-PAGES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0)}
 #: Millimetres left free at the left of the frame, and at its other sides (ISO 5457).
 _BINDING, _MARGIN = 20.0, 10.0
 #: Millimetres: the title block, the gap between views, the hatching, heights of letters.
@@ -245,7 +243,10 @@ class SheetPage:
         x, y, middle = right - _BLOCK[0], bottom - _BLOCK[1], right - 50.0
         frame = [_rectangle(left, top, right, bottom), _rectangle(x, y, right, bottom)]
         group.layers.append((FRAME, [Strokes("", frame)]))
-        thin = [_line(middle, y, middle, bottom), _line(middle, (y + bottom) / 2, right, (y + bottom) / 2)]
+        thin = [
+            _line(middle, y, middle, bottom),
+            _line(middle, (y + bottom) / 2, right, (y + bottom) / 2),
+        ]
         group.layers.append((THIN, [Strokes("", thin)]))
         columns = int((middle - x) / (0.55 * _LARGE))
         sizes = " x ".join(length_text(float(s), None) for s in self._bounds[1] - self._bounds[0])

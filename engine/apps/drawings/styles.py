@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .kinds import KINDS, LineKind
+from ...choices import LineKind
+from .line_kinds import KINDS
 
 #: Widths of wide and narrow lines in millimetres: line group 0.5.
 WIDE, NARROW = 0.5, 0.25
@@ -49,14 +50,8 @@ class Layer(NamedTuple):
     style: Style
 
 
-_TITLES: dict[LineKind, str] = {
-    "section": "Outlines of cuts",
-    "outline": "Outlines",
-    "border": "Borders",
-    "crease": "Edges",
-    "intersection": "Intersections",
-    "line": "Lines",
-}
+_WORDS = "outlines of cuts/outlines/borders/edges/intersections/lines"
+_TITLES = dict(zip(KINDS, _WORDS.split("/"), strict=True))
 _NARROW_KINDS = ("line",)
 HATCHING = Layer("hatching", "Hatching", Style(NARROW))
 FRAME = Layer("frame", "Frame", Style(WIDE))
@@ -76,8 +71,8 @@ def layer_of(kind: LineKind, hidden: bool, scale: float = 1.0) -> Layer:
     narrow, wide = NARROW * scale, WIDE * scale
     if hidden:
         dashes = _DASH * narrow, _GAP * narrow
-        return Layer(f"hidden-{kind}", f"Hidden: {_TITLES[kind].lower()}", Style(narrow, dashes))
-    return Layer(kind, _TITLES[kind], Style(narrow if kind in _NARROW_KINDS else wide))
+        return Layer(f"hidden-{kind}", f"Hidden: {_TITLES[kind]}", Style(narrow, dashes))
+    return Layer(kind, _TITLES[kind].capitalize(), Style(narrow if kind in _NARROW_KINDS else wide))
 
 
 def layers(hidden: bool, scale: float = 1.0) -> list[tuple[LineKind, bool, Layer]]:

@@ -1,7 +1,7 @@
 """The surfaces and lines of a scene, in the world.
 
-In: a scene. Out: the triangles of all that it shows, and their edges, part by part: a part is a node
-or one instance of it. What cannot be drawn is named.
+In: a scene. Out: the triangles of all that it shows, and their edges, part by part. A part is a
+node or one of its instances. What cannot be drawn is named.
 """
 
 from __future__ import annotations
@@ -84,47 +84,37 @@ def _poses(node: Node, thing: Any) -> Iterator[NDArray[np.float64]]:
         yield pose
 
 
-def _joined(
-    placed: list[tuple[MeshEdges, NDArray[np.float64]]], names: list[str]
-) -> Surfaces:
-    columns: dict[str, list[NDArray[Any]]] = {name: [] for name in Surfaces._fields[:-1]}
+def _joined(placed: list[tuple[MeshEdges, NDArray[np.float64]]], names: list[str]) -> Surfaces:
+    rows = [_NOTHING]
     vertices = faces = 0
     for part, (edges, pose) in enumerate(placed):
-        beside = np.where(edges.beside >= 0, edges.beside + np.int32(faces), np.int32(-1))
-        rows = {
-            "places": linalg.transform_points(pose, edges.positions),
-            "faces": edges.faces + np.int32(vertices),
-            "parts": np.full(len(edges.faces), part, np.int32),
-            "ends": edges.ends + np.int32(vertices),
-            "beside": beside,
-            "turned": edges.turned,
-            "creases": edges.creases,
-            "borders": edges.borders,
-            "lines": edges.lines + np.int32(vertices),
-            "line_parts": np.full(len(edges.lines), part, np.int32),
-        }
-        for name, row in rows.items():
-            columns[name].append(row)
+        rows.append(
+            (
+                linalg.transform_points(pose, edges.positions),
+                edges.faces + np.int32(vertices),
+                np.full(len(edges.faces), part, np.int32),
+                edges.ends + np.int32(vertices),
+                np.where(edges.beside >= 0, edges.beside + np.int32(faces), np.int32(-1)),
+                edges.turned,
+                edges.creases,
+                edges.borders,
+                edges.lines + np.int32(vertices),
+                np.full(len(edges.lines), part, np.int32),
+            )
+        )
         vertices, faces = vertices + len(edges.positions), faces + len(edges.faces)
-    return Surfaces(*(_together(name, rows) for name, rows in columns.items()), names)
+    return Surfaces(*map(_together, zip(*rows, strict=True)), names)
 
 
-_EMPTY: dict[str, tuple[tuple[int, ...], Any]] = {
-    "places": ((0, 3), np.float64),
-    "faces": ((0, 3), np.int32),
-    "parts": ((0,), np.int32),
-    "ends": ((0, 2), np.int32),
-    "beside": ((0, 2), np.int32),
-    "turned": ((0,), np.bool_),
-    "creases": ((0,), np.bool_),
-    "borders": ((0,), np.bool_),
-    "lines": ((0, 2), np.int32),
-    "line_parts": ((0,), np.int32),
-}
+def _together(rows: tuple[NDArray[Any], ...]) -> NDArray[Any]:
+    return np.ascontiguousarray(rows[1] if len(rows) == 2 else np.concatenate(rows))
 
 
-def _together(name: str, rows: list[NDArray[Any]]) -> Any:
-    if not rows:
-        shape, dtype = _EMPTY[name]
-        return np.zeros(shape, dtype)
-    return np.ascontiguousarray(rows[0] if len(rows) == 1 else np.concatenate(rows))
+#: The columns of no part at all.
+_NONE, _NO_PAIRS = np.zeros(0, np.int32), np.zeros((0, 2), np.int32)
+_FLAGS = np.zeros(0, bool)
+_NOTHING: tuple[NDArray[Any], ...] = (
+    np.zeros((0, 3)),
+    np.zeros((0, 3), np.int32),
+    *(_NONE, _NO_PAIRS, _NO_PAIRS, _FLAGS, _FLAGS, _FLAGS, _NO_PAIRS, _NONE),
+)

@@ -50,7 +50,8 @@ def _group(group: Group) -> Iterator[str]:
     clip = ""
     if group.clip is not None:
         width, height = map(number, group.clip)
-        yield f'<clipPath id="{group.name}-frame"><rect width="{width}" height="{height}"/></clipPath>'
+        frame = f'<rect width="{width}" height="{height}"/>'
+        yield f'<clipPath id="{group.name}-frame">{frame}</clipPath>'
         clip = f' clip-path="url(#{group.name}-frame)"'
     yield f'<g id="{group.name}"{place}>'
     if group.title:
@@ -74,8 +75,10 @@ def _layer(name: str, layer: Layer, strokes: list[Strokes], clip: str) -> Iterat
     for place, part in enumerate(strokes):
         title = f"<title>{_text(part.part)}</title>" if part.part else ""
         path = "".join(map(_path, part.polylines))
-        yield f'<path id="{name}-{place}" d="{path}">{title}</path>' if title else (
-            f'<path id="{name}-{place}" d="{path}"/>'
+        yield (
+            f'<path id="{name}-{place}" d="{path}">{title}</path>'
+            if title
+            else (f'<path id="{name}-{place}" d="{path}"/>')
         )
     yield "</g>"
 

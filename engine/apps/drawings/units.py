@@ -1,22 +1,22 @@
-"""Units of length and scales of drawings: how many millimetres of paper a world unit takes."""
+"""Pages, units of length and scales: how many millimetres of paper a world unit takes."""
 
 from __future__ import annotations
 
 import math
 import re
+from typing import get_args
 
 from ...base.near_words import meant
+from ...choices import LengthUnit, PageSize
 from ...errors import InvalidArgumentError
 
 #: Millimetres.
-UNITS = {
-    "mm": 1.0,
-    "cm": 10.0,
-    "m": 1000.0,
-    "µm": 1e-3,
-    "in": 25.4,
-    "ft": 304.8,
-}
+UNITS = dict(zip(get_args(LengthUnit), (1.0, 10.0, 1000.0, 1e-3, 25.4, 304.8), strict=True))
+#: The files that drawings are written to.
+SUFFIXES = (".svg", ".pdf")
+#: Width and height of pages in millimetres (ISO 216), with the long side level.
+_SIDES = ((297.0, 210.0), (420.0, 297.0), (594.0, 420.0), (841.0, 594.0))
+PAGES = dict(zip(get_args(PageSize), _SIDES, strict=True))
 #: The scales that ISO 5455 recommends are powers of ten times these.
 _STEPS = (1.0, 2.0, 5.0)
 _SCALE = re.compile(r"\s*([0-9.eE+-]+)\s*(?:[:/]\s*([0-9.eE+-]+)\s*)?")

@@ -70,14 +70,17 @@ def cap_of(outline: Outline, plane: Plane, spacing: float) -> Cap | None:
 def _in_space(flat: NDArray[np.float64], plane: Plane) -> NDArray[np.float64]:
     places = np.empty((*flat.shape[:-1], 3))
     places[..., plane.axis] = plane.coordinate
-    places[..., (plane.axis + 1) % 3], places[..., (plane.axis + 2) % 3] = flat[..., 0], flat[..., 1]
+    places[..., (plane.axis + 1) % 3], places[..., (plane.axis + 2) % 3] = (
+        flat[..., 0],
+        flat[..., 1],
+    )
     return places
 
 
 def _inner(
     segments: NDArray[np.float64], levels: NDArray[np.float64]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]] | None:
-    """Return stretches of level lines inside outlines: level, segment at the left, and at the right.
+    """Return stretches of level lines inside outlines: level, segments at their left and right.
 
     Parameters
     ----------

@@ -26,9 +26,9 @@ from ...stage.viewed_scene import ViewedScene
 from ...stage.viewed_thing import comes_from_file, viewed_of
 from ...stage.views.framing import frame_scene
 from .chains import chained
-from .pieces import Pieces, find_pieces
 from .paper import Group, Page, Strokes
 from .pdf import pdf_of
+from .pieces import Pieces, find_pieces
 from .projections import projection_of
 from .styles import Layer, layers
 from .surfaces import surfaces_of

@@ -1,8 +1,8 @@
 """The pieces of a view's lines: which are visible, and which hidden.
 
-In: surfaces and a projection. Out: straight pieces on paper, each stroke once, in millimetres. Which
-stretch of a line a triangle hides is found in closed form, so that lines end exactly where they
-pass behind something; docs/drawings.md tells the method.
+In: surfaces and a projection. Out: straight pieces on paper, each stroke once, in millimetres.
+Which stretch of a line a triangle hides is found in closed form, so that lines end exactly where
+they pass behind something; docs/drawings.md tells the method.
 """
 
 from __future__ import annotations

@@ -29,13 +29,13 @@ from ..sheet.placing import (
     section_plane,
 )
 from ..sheet.views import ViewSpec
-from .cut_faces import Cap, cap_of
 from .chains import chained
+from .cut_faces import Cap, cap_of
 from .line_drawing import LineDrawing
-from .pieces import find_pieces
 from .model_lines import section_lines
 from .paper import Group, Page, Strokes, Text
 from .pdf import text_width
+from .pieces import find_pieces
 from .projections import projection_of
 from .styles import FRAME, HATCHING, THIN
 from .surfaces import Surfaces, surfaces_of

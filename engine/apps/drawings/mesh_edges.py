@@ -75,7 +75,11 @@ def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
     arrays = arrays_of(mesh)
     points, first = loaders.number_rows(arrays["positions"].view(np.uint32), True)
     positions = arrays["positions"][first].astype(np.float64)
-    faces, sources = _sound_faces(points[arrays["faces"]], np.isfinite(positions).all(axis=1))
+    is_finite = np.isfinite(positions).all(axis=1)
+    positions[~is_finite] = 0.0  # nothing that is drawn uses them
+    faces, sources = _sound_faces(points[arrays["faces"]], is_finite)
+    needed = _needed_faces(positions, faces)
+    faces, sources = np.ascontiguousarray(faces[needed]), sources[needed]
     sides = native.find_sides(faces, len(positions))
     ends = np.stack([sides["low"], sides["high"]], axis=1)
     beside = np.stack([sides["first"] // 3, np.where(sides["uses"] > 1, sides["second"] // 3, -1)])
@@ -109,7 +113,7 @@ def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
         turned[kept],
         creases[kept],
         borders[kept],
-        lines[np.isfinite(positions).all(axis=1)[lines].all(axis=1)],
+        lines[is_finite[lines].all(axis=1)],
     )
 
 
@@ -138,6 +142,21 @@ def _sound_faces(
     if loaders.rows_repeat(rows.view(np.uint32), False):
         kept = kept[loaders.number_rows(rows.view(np.uint32), False)[1]]
     return np.ascontiguousarray(faces[kept]), kept
+
+
+def _needed_faces(positions: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Return which triangles are not flat, or close a gap between others."""
+    needed = ~face_normals(positions, faces)[1]
+    if needed.all():
+        return needed
+    sides = native.find_sides(np.ascontiguousarray(faces[needed]), len(positions))
+    gaps = sides[sides["uses"] == 1]
+    flat = np.flatnonzero(~needed)
+    ends = np.sort(np.stack([faces[flat], np.roll(faces[flat], -1, axis=1)], axis=-1), axis=-1)
+    keys = ends[..., 0].astype(np.int64) * len(positions) + ends[..., 1]
+    open_keys = gaps["low"].astype(np.int64) * len(positions) + gaps["high"]
+    needed[flat] = np.isin(keys, open_keys).any(axis=1)
+    return needed
 
 
 def _following(sides: NDArray[np.int32]) -> NDArray[np.int32]:

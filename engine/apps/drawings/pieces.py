@@ -23,8 +23,9 @@ from .surfaces import Surfaces
 #: Lines within this share of the largest coordinate from a plane lie on it. Coordinates are rounded
 #: to 24 bits.
 _THICKNESS = 2.0**-21
-#: Triangles reach beyond their sides by this share of that, so that no line shows through a seam.
-_REACH = 0.25
+#: Triangles reach beyond their sides by this share of that, so that no line shows through a seam:
+#: more than rounding in float64, but no more, as lines may run almost along a side.
+_REACH = 2.0**-22
 #: Lines that lie within so many millimetres of each other are one stroke, but not more than a share
 #: of the frame.
 _ONE_STROKE, _MOST_SHARE = 0.02, 1e-4
@@ -135,22 +136,22 @@ def clipped(lines: Lines, planes: NDArray[np.float64]) -> Lines:
 def hidden_pieces(lines: Lines, hiders: Hiders, projection: Projection, threads: int) -> Pieces:
     """Return the pieces of lines before and behind triangles, each stroke once."""
     line_paper = projection.on_paper(lines.ends.reshape(-1, 3)).reshape(-1, 2, 4)
-    reach = _REACH * hiders.thickness * projection.scale_at(line_paper[..., 2])
+    nothing = hiders.thickness * projection.scale_at(line_paper[..., 2])
     found = native.hide_lines(
         hiders.places,
         projection.on_paper(hiders.places),
         hiders.faces,
         projection.eye(),
         hiders.thickness,
-        reach,
+        _REACH * nothing,
         lines.ends,
         line_paper,
-        4.0 * reach,
+        nothing,
         threads,
     )
     pieces = _pieces_of(found, line_paper[..., :2], lines)
     nearness = min(_ONE_STROKE, _MOST_SHARE * max(projection.size))
-    return _each_once(pieces, max(nearness, 2.0 * reach), threads)
+    return _each_once(pieces, max(nearness, 2.0 * nothing), threads)
 
 
 def _pieces_of(found: NDArray[np.void], paper: NDArray[np.float64], lines: Lines) -> Pieces:

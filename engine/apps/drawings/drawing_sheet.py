@@ -16,7 +16,7 @@ from ...base.angles import limited_angle
 from ...base.calls import checks_types
 from ...base.validation import choose, positive
 from ...choices import LengthUnit, PageSize
-from ...errors import InvalidArgumentError
+from ...errors import InvalidArgumentError, printable
 from ...model.geometry.creases import CREASE_ANGLE
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from ..sheet.opening import open_sources
@@ -79,6 +79,7 @@ def drawing_sheet(
     sections: str | Iterable[str] = (),
     page: PageSize = "A3",
     scale: float | str | None = None,
+    title: str | None = None,
     hidden: bool = False,
     up: str | None = None,
     unit: LengthUnit | None = None,
@@ -102,6 +103,8 @@ def drawing_sheet(
     scale : float or str, optional
         Such as ``0.5`` or ``"1:2"``; by default the largest recommended one at which all views fit.
         The isometric view and those of cameras fill their places.
+    title : str, optional
+        In the title block; by default the model's name.
     hidden : bool
         Whether hidden lines are drawn, dashed.
     crease_angle, intersections, threads
@@ -138,6 +141,7 @@ def drawing_sheet(
         positive(line_width, "line_width"),
         threads or thread_count(),
     )
+    opened[0].title = opened[0].title if title is None else printable(title)
     made = SheetPage(opened[0], up or opened[0].up, length, look)
     given = None if chosen is None else positive(chosen, "scale")
     return DrawingSheet(made.draw(specs, page, given), made.scale)

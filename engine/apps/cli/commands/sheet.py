@@ -75,6 +75,7 @@ def _draw_lines(args: argparse.Namespace) -> int:
         up=args.up,
         unit=args.unit,
         root=args.root,
+        title=args.title,
         **page,
         **drawing_keywords(args),
         **looks(args),

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_CELLS_ACROSS = 4096 };
 #define CELLS_AN_ITEM 2.0
@@ -65,41 +66,72 @@ drw_span drw_columns(const drw_grid *grid, const double *item, int corners, int3
     return cells_between(grid, 0, low - rounding, high + rounding, grid->columns);
 }
 
-/* Counts the entries of all cells in starts[cell + 1]; returns their number, or more than `limit` as soon as there are. */
-static size_t count_entries(const drw_grid *grid, const double *items, int corners, const int32_t *order, size_t count,
-                            size_t limit)
+static size_t cell_at(const drw_grid *grid, int32_t row, int32_t column)
+{
+    return (size_t)row * (size_t)grid->columns + (size_t)column;
+}
+
+static int has_list(const drw_grid *grid, size_t cell) { return !grid->asked || grid->asked[cell]; }
+
+/* Marks the cells that lines touch. */
+static e3d_status ask(drw_grid *grid, const double *lines, size_t count)
+{
+    free(grid->asked);
+    grid->asked = calloc((size_t)grid->columns * (size_t)grid->rows, 1);
+    if (!grid->asked)
+        return E3D_OUT_OF_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        drw_span rows = drw_rows(grid, lines + 4 * i, 2);
+        for (int32_t row = rows.first; row <= rows.last; row++) {
+            drw_span columns = drw_columns(grid, lines + 4 * i, 2, row);
+            if (columns.first <= columns.last)
+                memset(grid->asked + cell_at(grid, row, columns.first), 1, (size_t)(columns.last - columns.first + 1));
+        }
+    }
+    return E3D_OK;
+}
+
+/* Counts the entries of an item in starts[cell + 1]; returns how many there are. */
+static size_t count_item(const drw_grid *grid, const double *item, int corners)
 {
     size_t entries = 0;
-    for (size_t i = 0; i < count && entries <= limit; i++) {
-        const double *item = items + 2 * (size_t)corners * (size_t)order[i];
-        drw_span rows = drw_rows(grid, item, corners);
-        for (int32_t row = rows.first; row <= rows.last; row++) {
-            drw_span columns = drw_columns(grid, item, corners, row);
-            for (int32_t column = columns.first; column <= columns.last; column++)
-                grid->starts[(size_t)row * (size_t)grid->columns + (size_t)column + 1]++;
-            entries += columns.last >= columns.first ? (size_t)(columns.last - columns.first + 1) : 0;
+    drw_span rows = drw_rows(grid, item, corners);
+    for (int32_t row = rows.first; row <= rows.last; row++) {
+        drw_span columns = drw_columns(grid, item, corners, row);
+        for (int32_t column = columns.first; column <= columns.last; column++) {
+            size_t cell = cell_at(grid, row, column);
+            if (has_list(grid, cell)) {
+                grid->starts[cell + 1]++;
+                entries++;
+            }
         }
     }
     return entries;
 }
 
-static void fill(drw_grid *grid, const double *items, int corners, const int32_t *order, size_t count)
+e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, size_t count)
 {
     size_t cells = (size_t)grid->columns * (size_t)grid->rows;
     for (size_t cell = 0; cell < cells; cell++)
         grid->starts[cell + 1] += grid->starts[cell];
+    grid->items = malloc(((size_t)grid->starts[cells] + 1) * sizeof *grid->items);
+    if (!grid->items)
+        return E3D_OUT_OF_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        const double *item = items + 2 * (size_t)corners * (size_t)order[i];
-        drw_span rows = drw_rows(grid, item, corners);
+        const double *item = items.places + 2 * (size_t)items.corners * (size_t)order[i];
+        drw_span rows = drw_rows(grid, item, items.corners);
         for (int32_t row = rows.first; row <= rows.last; row++) {
-            drw_span columns = drw_columns(grid, item, corners, row);
-            for (int32_t column = columns.first; column <= columns.last; column++)
-                grid->items[grid->starts[(size_t)row * (size_t)grid->columns + (size_t)column]++] = order[i];
+            drw_span columns = drw_columns(grid, item, items.corners, row);
+            for (int32_t column = columns.first; column <= columns.last; column++) {
+                size_t cell = cell_at(grid, row, column);
+                if (has_list(grid, cell))
+                    grid->items[grid->starts[cell]++] = order[i];
+            }
         }
     }
-    for (size_t cell = cells; cell > 0; cell--)
-        grid->starts[cell] = grid->starts[cell - 1];
+    memmove(grid->starts + 1, grid->starts, cells * sizeof *grid->starts);
     grid->starts[0] = 0;
+    return E3D_OK;
 }
 
 static int32_t cells_across(double length, double side)
@@ -118,26 +150,41 @@ static void set_cells(drw_grid *grid, const double size[2], double wanted)
     grid->cells_per_unit[1] = size[1] > 0 ? grid->rows / size[1] : 1;
 }
 
-e3d_status drw_grid_build(drw_grid *grid, const double *items, int corners, const int32_t *order, size_t count,
-                          const double low[2], const double high[2], double margin)
+/* Counts the entries of all items, at most `limit` and one item's more; keeps those that have any. */
+static size_t count_all(drw_grid *grid, drw_items items, int32_t *order, size_t count, size_t limit, size_t *kept)
 {
-    double size[2] = {high[0] - low[0], high[1] - low[1]}, wanted = CELLS_AN_ITEM * (double)(count + 8);
-    size_t limit = MOST_ENTRIES_AN_ITEM * count + FREE_ENTRIES, entries = 0;
-    *grid = (drw_grid){{low[0], low[1]}, {1, 1}, margin, 1, 1, NULL, NULL};
+    size_t entries = 0;
+    *kept = 0;
+    for (size_t i = 0; i < count && entries <= limit; i++) {
+        size_t own = count_item(grid, items.places + 2 * (size_t)items.corners * (size_t)order[i], items.corners);
+        entries += own;
+        if (own && entries <= limit) {
+            int32_t item = order[i]; /* the others stay behind, in case all are counted again */
+            order[i] = order[*kept];
+            order[(*kept)++] = item;
+        }
+    }
+    return entries;
+}
+
+e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,
+                         const double low[2], const double high[2], double margin)
+{
+    double size[2] = {high[0] - low[0], high[1] - low[1]}, wanted = CELLS_AN_ITEM * (double)(*count + 8);
+    size_t limit = MOST_ENTRIES_AN_ITEM * *count + FREE_ENTRIES, entries, kept;
+    limit = limit < INT32_MAX / 2 ? limit : INT32_MAX / 2;
+    *grid = (drw_grid){{low[0], low[1]}, {1, 1}, margin, 1, 1, NULL, NULL, NULL};
     for (;; wanted /= 4) {
         set_cells(grid, size, wanted);
         free(grid->starts);
         grid->starts = calloc((size_t)grid->columns * (size_t)grid->rows + 1, sizeof *grid->starts);
-        if (!grid->starts)
+        if (!grid->starts || (lines && ask(grid, lines, line_count) != E3D_OK))
             return E3D_OUT_OF_MEMORY;
-        entries = count_entries(grid, items, corners, order, count, limit);
+        entries = count_all(grid, items, order, *count, limit, &kept);
         if (entries <= limit || (grid->columns == 1 && grid->rows == 1))
             break;
     }
-    grid->items = malloc((entries + 1) * sizeof *grid->items);
-    if (!grid->items || entries > INT32_MAX)
-        return E3D_OUT_OF_MEMORY;
-    fill(grid, items, corners, order, count);
+    *count = kept;
     return E3D_OK;
 }
 
@@ -145,5 +192,7 @@ void drw_grid_free(drw_grid *grid)
 {
     free(grid->starts);
     free(grid->items);
+    free(grid->asked);
     grid->starts = grid->items = NULL;
+    grid->asked = NULL;
 }

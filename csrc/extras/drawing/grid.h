@@ -13,6 +13,7 @@ typedef struct drw_grid {
     int32_t columns, rows;
     int32_t *starts; /* (rows * columns + 1,) */
     int32_t *items;
+    uint8_t *asked; /* (rows * columns,): which cells have lists; NULL: all */
 } drw_grid;
 
 /* Columns first .. last of a row; none if first > last. */
@@ -20,10 +21,18 @@ typedef struct drw_span {
     int32_t first, last;
 } drw_span;
 
-/* Items (any number, corners, 2); `order` (count,) lists those that are meant. The grid covers a box: items beyond it are left out.
- * Items reach `margin` beyond their corners. */
-e3d_status drw_grid_build(drw_grid *grid, const double *items, int corners, const int32_t *order, size_t count,
-                          const double low[2], const double high[2], double margin);
+/* Items or lines: (any number, corners, 2). */
+typedef struct drw_items {
+    const double *places;
+    int corners;
+} drw_items;
+
+/* Makes a grid over a box for items, of which `order` lists *count. Items reach `margin` beyond their corners. Only cells that
+ * some of `lines` touch get lists (all if there are no lines, NULL). Items in no list are taken out of `order`. */
+e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,
+                         const double low[2], const double high[2], double margin);
+/* Makes the lists, of the same items in any order. */
+e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, size_t count);
 void drw_grid_free(drw_grid *grid);
 
 /* The rows that an item touches. */

@@ -50,8 +50,8 @@ static int find_stretches(const void *argument, int32_t number, drw_scratch *scr
         drw_span columns = drw_columns(grid, own, 2, row);
         for (int32_t column = columns.first; column <= columns.last; column++) {
             size_t cell = (size_t)row * (size_t)grid->columns + (size_t)column;
-            for (int32_t i = grid->starts[cell]; i < grid->starts[cell + 1] && grid->items[i] < number; i++)
-                if (drw_is_new(scratch, grid->items[i], number) &&
+            for (int32_t i = grid->starts[cell]; i < grid->starts[cell + 1]; i++)
+                if (grid->items[i] < number && drw_is_new(scratch, grid->items[i], number) &&
                     is_repeated(own, job->segments + 4 * (size_t)grid->items[i], job->tolerance, &within) &&
                     drw_add(scratch, within.from, within.to, *least))
                     return 1;
@@ -80,8 +80,12 @@ e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolera
     for (size_t i = 0; order && i < count; i++)
         order[i] = (int32_t)i;
     measure(segments, count, low, high);
+    drw_items items = {segments, 2};
+    size_t kept = count;
     if (status == E3D_OK)
-        status = drw_grid_build(&job.grid, segments, 2, order, count, low, high, tolerance);
+        status = drw_grid_make(&job.grid, items, order, &kept, NULL, 0, low, high, tolerance);
+    if (status == E3D_OK)
+        status = drw_grid_fill(&job.grid, items, order, kept);
     if (status == E3D_OK)
         status = drw_cut_lines(find_stretches, &job, count, count, threads, pieces, found);
     drw_grid_free(&job.grid);

@@ -58,6 +58,9 @@ typedef struct e3d_side {
  * to itself are none. *sides is to be freed with free(). */
 e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e3d_side **sides, size_t *found);
 
+/* The unit normals (count, 3) of triangles; 0 for those whose height is at most `lowest`, or that are not finite. */
+void e3d_find_normals(const double *places, const int32_t *faces, size_t count, double lowest, double *normals);
+
 /* Segments in which triangles of different parts cross. */
 typedef struct e3d_crossing {
     int32_t faces[2];

@@ -123,6 +123,19 @@ def find_sides(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArray
     return taken(<void **>&sides, count, SIDE)
 
 
+def find_normals(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, double lowest) -> NDArray[np.float64]:
+    """Return the unit normals (F, 3) of triangles; 0 for those whose height is at most ``lowest``."""
+    require(places.shape[1] == 3, "places have three coordinates")
+    check_indices(faces, places.shape[0])
+    normals = np.empty((faces.shape[0], 3))
+    cdef double[:, ::1] view = normals
+    cdef size_t count = faces.shape[0]
+    if count:
+        with nogil:
+            e3d_find_normals(&places[0, 0], &faces[0, 0], count, lowest, &view[0, 0])
+    return normals
+
+
 def cross_surfaces(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, const int32_t[::1] parts not None,
                    double thickness, int threads) -> NDArray[Any]:
     """Return the segments (S,) of `CROSSING` in which triangles (F, 3) of different parts (F,) cross."""

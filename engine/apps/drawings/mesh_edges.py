@@ -78,13 +78,15 @@ def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
     is_finite = np.isfinite(positions).all(axis=1)
     positions[~is_finite] = 0.0  # nothing that is drawn uses them
     faces, sources = _sound_faces(points[arrays["faces"]], is_finite)
-    needed = _needed_faces(positions, faces)
-    faces, sources = np.ascontiguousarray(faces[needed]), sources[needed]
+    normals, is_flat = face_normals(positions, faces)
+    if is_flat.any():
+        needed = _needed_faces(positions, faces, is_flat)
+        faces, sources = np.ascontiguousarray(faces[needed]), sources[needed]
+        normals, is_flat = normals[needed], is_flat[needed]
     sides = native.find_sides(faces, len(positions))
     ends = np.stack([sides["low"], sides["high"]], axis=1)
     beside = np.stack([sides["first"] // 3, np.where(sides["uses"] > 1, sides["second"] // 3, -1)])
     beside = np.ascontiguousarray(beside.T, np.int32)
-    normals, is_flat = face_normals(positions, faces)
     borders = sides["uses"] == 1
     creases = sides["uses"] > 2
     pairs = np.flatnonzero(sides["uses"] == 2)
@@ -121,14 +123,9 @@ def face_normals(
     positions: NDArray[np.float64], faces: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return the unit normals of triangles, (F, 3), and which are too flat to have one."""
-    a, b, c = (positions[faces[:, k]] for k in range(3))
-    normals = linalg.cross(b - a, c - a)
-    doubled = linalg.length(normals)
-    longest = np.maximum(
-        linalg.length(b - a), np.maximum(linalg.length(c - b), linalg.length(a - c))
-    )
-    limit = FLAT * np.abs(positions).max(initial=0.0)
-    return normals / doubled[:, np.newaxis], ~(doubled > limit * longest)
+    limit = FLAT * float(np.abs(positions).max(initial=0.0))
+    normals = native.find_normals(positions, faces, limit)
+    return normals, ~normals.any(axis=1)
 
 
 def _sound_faces(
@@ -144,11 +141,11 @@ def _sound_faces(
     return np.ascontiguousarray(faces[kept]), kept
 
 
-def _needed_faces(positions: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.bool_]:
+def _needed_faces(
+    positions: NDArray[np.float64], faces: NDArray[np.int32], is_flat: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Return which triangles are not flat, or close a gap between others."""
-    needed = ~face_normals(positions, faces)[1]
-    if needed.all():
-        return needed
+    needed = ~is_flat
     sides = native.find_sides(np.ascontiguousarray(faces[needed]), len(positions))
     gaps = sides[sides["uses"] == 1]
     flat = np.flatnonzero(~needed)

@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum { MOST_CELLS_ACROSS = 4096 };
-#define CELLS_AN_ITEM 2.0
+#define CELLS_AN_ITEM 0.5
 #define MOST_ENTRIES_AN_ITEM 12
 #define FREE_ENTRIES 65536
 

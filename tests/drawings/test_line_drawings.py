@@ -57,7 +57,7 @@ def test_a_plate_hides_what_is_below_it_exactly():
     drawing = draw(scene)
     # The bar's long sides are hidden along the plate's width.
     assert lengths(drawing) == pytest.approx((8.0 + 13.0 - 4.0, 4.0), rel=1e-6)
-    assert drawing.parts == ["plate", "bar"]
+    assert drawing.parts == ("plate", "bar")
 
 
 def test_faces_that_touch_do_not_hide_each_others_lines():

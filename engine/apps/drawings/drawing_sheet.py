@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from ..._native.rasterizer import thread_count
 from ...base.angles import limited_angle
-from ...base.calls import checks_types
+from ...base.calls import checks_types, hints_keywords
 from ...base.validation import choose, positive
 from ...choices import LengthUnit, PageSize
 from ...errors import InvalidArgumentError, printable
 from ...model.geometry.creases import CREASE_ANGLE
+from ...rendering.backend_selection import resolve_threads
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from ..sheet.opening import open_sources
 from ..sheet.views import DEFAULT_VIEWS, check_views
@@ -29,6 +29,7 @@ from .svg import svg_of
 from .units import PAGES, millimetres, parse_scale, scale_text
 
 
+@hints_keywords
 class DrawingSheet:
     """A page with line drawings of a model; made by `drawing_sheet`.
 
@@ -139,7 +140,7 @@ def drawing_sheet(
         limited_angle(crease_angle, "crease_angle", np.pi, "from 0 to pi radians"),
         intersections,
         positive(line_width, "line_width"),
-        threads or thread_count(),
+        resolve_threads(threads),
     )
     opened[0].title = opened[0].title if title is None else printable(title)
     made = SheetPage(opened[0], up or opened[0].up, length, look)

@@ -10,22 +10,24 @@ from typing import Any
 
 import numpy as np
 
-from ..._native.rasterizer import thread_count
+from ..._native.loaders import frozen
 from ...base.angles import limited_angle
-from ...base.calls import checks_types
+from ...base.calls import checks_types, hints_keywords
 from ...base.files.atomic_write import atomic_write, checked_path
 from ...base.image_size import check_size
-from ...base.validation import positive
+from ...base.validation import choose, positive
 from ...choices import LengthUnit, LineKind
 from ...errors import InvalidArgumentError, warn
 from ...model.geometry.creases import CREASE_ANGLE
 from ...model.scene.cameras import Camera
+from ...rendering.backend_selection import resolve_threads
 from ...rendering.camera_choice import CameraChoice, find_camera
 from ...stage.near_origin import pose_from_file
 from ...stage.viewed_scene import ViewedScene
 from ...stage.viewed_thing import comes_from_file, viewed_of
 from ...stage.views.framing import frame_scene
 from .chains import chained
+from .line_kinds import KINDS
 from .paper import Group, Page, Strokes
 from .pdf import pdf_of
 from .pieces import Pieces, find_pieces
@@ -39,6 +41,7 @@ from .units import SUFFIXES, millimetres
 PIXEL = 25.4 / 96.0
 
 
+@hints_keywords
 class LineDrawing:
     """The lines of a scene as a camera sees them; made by `line_drawing`.
 
@@ -48,7 +51,7 @@ class LineDrawing:
         Width and height of the frame in millimetres.
     pieces : Pieces
         Straight pieces with their kinds, parts and whether they are hidden.
-    parts : list of str
+    parts : tuple of str
         The names of the parts: nodes, and instances.
     title : str
     """
@@ -56,10 +59,14 @@ class LineDrawing:
     def __init__(
         self, size: tuple[float, float], pieces: Pieces, parts: list[str], title: str
     ) -> None:
-        self.size, self.pieces, self.parts, self.title = size, pieces, parts, title
+        columns = (frozen(np.ascontiguousarray(column)) for column in pieces)
+        self.pieces = Pieces(*columns)
+        self.size, self.parts, self.title = size, tuple(parts), title
 
+    @checks_types
     def strokes(self, kind: LineKind, hidden: bool = False) -> list[Strokes]:
         """Return the polylines of a kind, part by part, in thousandths of a millimetre."""
+        choose(kind, KINDS, "kind")
         found = self.pieces.of(kind, hidden)
         order = np.argsort(found.parts, kind="stable")
         numbers, starts = np.unique(found.parts[order], return_index=True)
@@ -67,16 +74,9 @@ class LineDrawing:
         strokes = (Strokes(self.parts[number], chained(ends)) for number, ends in runs)
         return [one for one in strokes if one.polylines]
 
-    def layers(self, hidden: bool, line_width: float) -> list[tuple[Layer, list[Strokes]]]:
-        """Return the layers that are not empty."""
-        found = (
-            (layer, self.strokes(kind, state)) for kind, state, layer in layers(hidden, line_width)
-        )
-        return [(layer, strokes) for layer, strokes in found if strokes]
-
     def _page(self, hidden: bool, line_width: float) -> Page:
         width = positive(line_width, "line_width")
-        view = Group("view", "", self.layers(hidden, width), clip=self.size)
+        view = Group("view", "", layers_of(self, hidden, width), clip=self.size)
         return Page(*self.size, self.title, [view])
 
     @checks_types
@@ -121,6 +121,16 @@ class LineDrawing:
     def __repr__(self) -> str:
         width, height = self.size
         return f"<LineDrawing {width:.6g} x {height:.6g} mm: {len(self.pieces.ends)} pieces>"
+
+
+def layers_of(
+    drawing: LineDrawing, hidden: bool, line_width: float
+) -> list[tuple[Layer, list[Strokes]]]:
+    """Return the layers of a drawing that are not empty."""
+    found = (
+        (layer, drawing.strokes(kind, state)) for kind, state, layer in layers(hidden, line_width)
+    )
+    return [(layer, strokes) for layer, strokes in found if strokes]
 
 
 def page_bytes(page: Page, suffix: str) -> bytes:
@@ -233,7 +243,7 @@ def draw_lines(
         surfaces,
         projection_of(*view, frame, size),
         intersections=intersections,
-        threads=threads or thread_count(),
+        threads=resolve_threads(threads),
     )
     if not len(pieces.ends):
         warn(f"{viewed.title}: the drawing shows no lines")

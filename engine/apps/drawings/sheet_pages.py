@@ -31,7 +31,7 @@ from ..sheet.placing import (
 from ..sheet.views import ViewSpec
 from .chains import chained
 from .cut_faces import Cap, cap_of
-from .line_drawing import LineDrawing
+from .line_drawing import LineDrawing, layers_of
 from .model_lines import section_lines
 from .paper import Group, Page, Strokes, Text
 from .pdf import text_width
@@ -114,6 +114,7 @@ class SheetPage:
         self._cameras = [node for node in model.scene.nodes if isinstance(node.object, Camera)]
         self.scale = 1.0
 
+    @np.errstate(all="ignore")
     def draw(self, specs: list[ViewSpec], page: str, scale: float | None) -> Page:
         """Return the page with its views.
 
@@ -199,7 +200,7 @@ class SheetPage:
             hatching.append(Strokes(self._name(cap.node), chained(ends)))
         if any(one.polylines for one in hatching):
             group.layers.append((HATCHING, hatching))
-        group.layers += drawing.layers(self._look.hidden, self._look.line_width)
+        group.layers += layers_of(drawing, self._look.hidden, self._look.line_width)
         title = short(view.spec.name, max(int(width / 2.0), 8))
         group.texts.append(Text(1.0, 4.0, title, _SMALL + 1.0))
         if not len(pieces.ends):

@@ -44,7 +44,7 @@ def add_lines(parser, *, is_page: bool) -> None:
         help="factor on the widths of lines: edges have 0.5 mm, hidden lines 0.25 mm",
     )
     if is_page:
-        group.add_argument("--title", metavar="TEXT", help="of the page; by default the file's name")
+        group.add_argument("--title", metavar="TEXT", help="of the page; else the file's name")
         group.add_argument("--page", choices=PAGES, help="size of the page; A3 by default")
         group.add_argument(
             "--crease-angle",

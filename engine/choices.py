@@ -124,7 +124,7 @@ PointerShape = Literal[
 ]
 #: The kinds of lines of drawings. Where two coincide, the drawing has the one that is listed first.
 #: ``section``: outlines of cut material; ``outline``: where a surface turns from the viewer;
-#: ``border``: edges of one face only; ``crease``: sharp edges; ``intersection``: where parts run
+#: ``border``: edges of one face only; ``crease``: sharp edges; ``intersection``: where bodies run
 #: through each other; ``line``: lines of the model's own.
 LineKind = Literal["section", "outline", "border", "crease", "intersection", "line"]
 #: Pages of drawings, with the long side level.

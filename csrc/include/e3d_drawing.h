@@ -61,6 +61,10 @@ e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e
 /* The unit normals (count, 3) of triangles; 0 for those whose height is at most `lowest`, or that are not finite. */
 void e3d_find_normals(const double *places, const int32_t *faces, size_t count, double lowest, double *normals);
 
+/* For each of `count` triangles the least vertex of its body: of all triangles that hang together by vertices.
+ * above[vertices]: room to work in. */
+void e3d_number_bodies(const int32_t *faces, size_t count, size_t vertices, int32_t *above, int32_t *bodies);
+
 /* Segments in which triangles of different parts cross. */
 typedef struct e3d_crossing {
     int32_t faces[2];

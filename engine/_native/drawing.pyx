@@ -136,6 +136,20 @@ def find_normals(const double[:, ::1] places not None, const int32_t[:, ::1] fac
     return normals
 
 
+def find_bodies(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArray[np.int32]:
+    """Return for each triangle (F, 3) the least vertex of all triangles that hang together with it."""
+    check_indices(faces, vertices)
+    bodies = np.empty(faces.shape[0], np.int32)
+    above = np.empty(vertices, np.int32)
+    cdef int32_t[::1] view = bodies
+    cdef int32_t[::1] room = above
+    cdef size_t count = faces.shape[0]
+    if count:
+        with nogil:
+            e3d_number_bodies(&faces[0, 0], count, vertices, &room[0], &view[0])
+    return bodies
+
+
 def cross_surfaces(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, const int32_t[::1] parts not None,
                    double thickness, int threads) -> NDArray[Any]:
     """Return the segments (S,) of `CROSSING` in which triangles (F, 3) of different parts (F,) cross."""

@@ -93,3 +93,27 @@ def test_outlines_stand_where_pixels_change():
     nearest = a + way * np.clip(along, 0, 1)[..., np.newaxis]
     away = np.linalg.norm(points[:, np.newaxis] - nearest, axis=2).min(axis=1)
     assert away.max() < 1.0
+
+
+def test_bodies_of_one_mesh_cross_as_parts_do():
+    torus, box = e3d.torus(1.0, 0.35), e3d.box((1.7, 0.8, 2.4))
+    apart = e3d.Scene()
+    apart.add(torus)
+    apart.add(box)
+    faces = np.concatenate([torus.faces, box.faces + len(torus.positions)])
+    whole = e3d.Mesh(np.concatenate([torus.positions, box.positions]), faces)
+    camera = e3d.frame_scene(apart)
+    found = [line_drawing(one, camera).pieces.of("intersection") for one in (apart, whole)]
+    assert found[0].length == pytest.approx(found[1].length, rel=1e-6) and found[0].length > 50
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_bodies_hang_together_by_vertices(seed):
+    rng = np.random.default_rng(seed)
+    faces = rng.integers(0, 60, (25, 3)).astype(np.int32)
+    bodies = native.find_bodies(faces, 60)
+    labels = np.arange(60)
+    for _ in range(60):  # until nothing changes, for certain
+        for face in faces:
+            labels[face] = labels[face].min()
+    assert (bodies == labels[faces[:, 0]]).all()

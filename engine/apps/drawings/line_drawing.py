@@ -180,7 +180,8 @@ def line_drawing(
         Radians. Faces that meet at more than this angle have an edge between them, unless the mesh
         has normals that are smooth there.
     intersections : bool
-        Whether parts that run through each other have lines there.
+        Whether bodies that run through each other have lines there: parts, or what hangs together
+        within a mesh.
     threads : int
         0 means all.
 

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..._native import drawing as native
 from ...base import linalg
 from .line_kinds import BORDER, CREASE, INTERSECTION, LINE, OUTLINE, SECTION
 from .mesh_edges import face_normals
@@ -79,16 +78,17 @@ def _fronts(surfaces: Surfaces, eye: NDArray[np.float64]) -> NDArray[np.bool_]:
     return fronts
 
 
-def intersection_lines(
-    places: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    parts: NDArray[np.int32],
-    thickness: float,
-    threads: int,
-) -> Lines:
-    """Return the lines in which the surfaces of different parts run through each other."""
-    found = native.cross_surfaces(places, faces, parts, thickness, threads)
-    return lines_of(found["ends"].reshape(-1, 2, 3), INTERSECTION, parts[found["faces"][:, 0]])
+def intersection_lines(crossings: NDArray[np.void], parts: NDArray[np.int32]) -> Lines:
+    """Return the lines in which surfaces cross; each belongs to the part of its first triangle.
+
+    Parameters
+    ----------
+    crossings : (S,) of `CROSSING`
+    parts : (F,) int32
+        Of the triangles.
+    """
+    ends = crossings["ends"].reshape(-1, 2, 3)
+    return lines_of(ends, INTERSECTION, parts[crossings["faces"][:, 0]])
 
 
 def section_lines(segments: NDArray[np.float64], part: int) -> Lines:

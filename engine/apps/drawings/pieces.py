@@ -112,9 +112,11 @@ def find_pieces(
     places, faces, sources = clip_triangles(surfaces.places, surfaces.faces, planes)
     thickness = _THICKNESS * float(np.abs(bounds).max())
     lines = [edge_lines(surfaces, projection.eye())]
-    if intersections and len(surfaces.names) > 1:
-        parts = surfaces.parts[sources]
-        lines.append(intersection_lines(places, faces, parts, thickness, threads))
+    if intersections:
+        bodies = native.find_bodies(surfaces.faces, len(surfaces.places))
+        if len(bodies) and (bodies != bodies[0]).any():
+            crossed = native.cross_surfaces(places, faces, bodies[sources], thickness, threads)
+            lines.append(intersection_lines(crossed, surfaces.parts[sources]))
     lines = [clipped(each, planes) for each in lines]
     # What a section has in its plane lies on the near plane, which must not cut it off.
     lines += [clipped(each, planes[1:]) for each in more_lines or []]

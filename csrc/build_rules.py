@@ -125,6 +125,7 @@ def static_libraries():
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/**/*.c"],
         "e3d_canvas": ["csrc/extras/canvas/*.c"],
+        "e3d_drawing": ["csrc/extras/drawing/*.c"],
         "e3d_environment": ["csrc/light/*.c"],
         "e3d_images": ["csrc/io/images/*.c"],
         "e3d_navigation": ["csrc/scene/navigation/*.c"],

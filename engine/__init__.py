@@ -77,9 +77,9 @@ _PUBLIC = {
     "backends": "rendering.backend_selection",
 }
 _MODULES = (
-    *("batch", "choices", "colliders", "datasets", "detail", "errors", "events", "lights"),
-    *("linalg", "loaders", "motion", "navigation", "plugins", "primitives", "rasterization"),
-    *("resources", "sheets", "worlds"),
+    *("batch", "choices", "colliders", "datasets", "detail", "drawings", "errors", "events"),
+    *("lights", "linalg", "loaders", "motion", "navigation", "plugins", "primitives"),
+    *("rasterization", "resources", "sheets", "worlds"),
 )
 
 # Modules with optional dependencies or few users: not for ``import *``.

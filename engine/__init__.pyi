@@ -6,6 +6,7 @@ from . import colliders as colliders
 from . import compat as compat
 from . import datasets as datasets
 from . import detail as detail
+from . import drawings as drawings
 from . import errors as errors
 from . import events as events
 from . import golden as golden

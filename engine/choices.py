@@ -32,8 +32,10 @@ __all__ = [
     "ImageFormat",
     "Interpolation",
     "JointKind",
+    "LengthUnit",
     "LightSetup",
     "LightShadow",
+    "LineKind",
     "LineShape",
     "LookName",
     "Loop",
@@ -41,6 +43,7 @@ __all__ = [
     "MotionPath",
     "Normals",
     "OutputMode",
+    "PageSize",
     "PixelFormat",
     "PointShape",
     "PointerShape",
@@ -125,6 +128,14 @@ PointerShape = Literal[
     "no",
     "hand",
 ]
+#: The kinds of lines of drawings. Where two coincide, the drawing has the one that is listed first.
+#: ``section``: outlines of cut material; ``outline``: where a surface turns from the viewer;
+#: ``border``: edges of one face only; ``crease``: sharp edges; ``intersection``: where bodies run
+#: through each other; ``line``: lines of the model's own.
+LineKind = Literal["section", "outline", "border", "crease", "intersection", "line"]
+#: Pages of drawings, with the long side level.
+PageSize = Literal["A4", "A3", "A2", "A1"]
+LengthUnit = Literal["mm", "cm", "m", "µm", "in", "ft"]
 EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
 
 #: Three numbers: integers from 0 to 255 and floats from 0 to 1 are display values (sRGB), those of

@@ -5,8 +5,9 @@
     python docs/pictures/make.py --check       draw, and compare with the files, pixel for pixel
 
 In: the models of engine3d.data, the programs of docs/gallery.md. Out: one WebP a picture in this
-folder: lossless, or small, with the digest of what was drawn in drawn.json. The same pixels come
-out on every machine and backend; a test compares them.
+folder: lossless, or small, with the digest of what was drawn in drawn.json; an SVG for each drawing
+of vectors.py. The same pixels and texts come out on every machine and backend; a test compares
+them.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from pathlib import Path
 import gallery
 import numpy as np
 from digests import Digests
+from vectors import SIZE, VECTORS
 
 import engine3d as e3d
 from engine3d import linalg
@@ -341,6 +343,11 @@ def contact_sheet() -> np.ndarray:
     return e3d.sheets.contact_sheet(train, sections="-y=50%", size=(1500, 900)).picture.pixels
 
 
+def beside_lines() -> np.ndarray:
+    """The view of vectors.py's line drawing, in pixels."""
+    return e3d.render(MODELS / "train.asc", size=SIZE).color
+
+
 def impostors() -> np.ndarray:
     """A field of teapots as meshes, and with impostors where nobody can tell."""
     mesh = load("teapot.obj")
@@ -415,17 +422,22 @@ PICTURES = {
     "golden": golden,
     "sheet": contact_sheet,
     "robot": robot,
+    "beside_lines": beside_lines,
+    **VECTORS,
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", "mirrors", "sheet", "city", "impostors", "robot", *gallery.programs())
+SMALL = ("models", "mirrors", "sheet", "city", "impostors", "robot", "beside_lines", *gallery.programs())
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 
 
-def save(picture: np.ndarray, name: str) -> None:
+def save(picture: np.ndarray | str, name: str) -> None:
     from PIL import Image
 
+    if isinstance(picture, str):
+        (FOLDER / f"{name}.svg").write_text(picture, "utf-8")
+        return
     how = {"quality": QUALITY} if name in SMALL else {"lossless": True, "quality": 100}
     path = FOLDER / f"{name}.webp"
     Image.fromarray(picture[:, :, :3]).save(path, method=6, **how)
@@ -434,10 +446,12 @@ def save(picture: np.ndarray, name: str) -> None:
         DIGESTS.record(name, picture)
 
 
-def differs(picture: np.ndarray, name: str) -> bool:
+def differs(picture: np.ndarray | str, name: str) -> bool:
     """Whether a file shows anything else than a picture."""
     from PIL import Image
 
+    if isinstance(picture, str):
+        return (FOLDER / f"{name}.svg").read_text("utf-8") != picture
     if name in SMALL:
         return not DIGESTS.knows(name, picture)
     with Image.open(FOLDER / f"{name}.webp") as image:
@@ -458,7 +472,7 @@ def main() -> int:
         if not arguments.check:
             save(picture, name)
         elif differs(picture, name):
-            stale.append(f"{name}.webp")
+            stale.append(name)
     if stale:
         print(f"not what the engine draws: {', '.join(stale)}", file=sys.stderr)
     return 1 if stale else 0

@@ -19,6 +19,7 @@ from typing import Any
 MODULES = (
     *(
         "canvas",
+        "drawing",
         "images",
         "loaders",
         "mujoco",

@@ -236,7 +236,7 @@ class ViewRenderer:
         scale = max(width, height) / 240
         size = max(1, round(width / scale)), max(1, round(height / scale))
         try:
-            look, camera = self._appearance(), (self._camera(view), view.pose())
+            look, camera = self._appearance(), (self.camera(view), view.pose())
             look["ambient_occlusion"] = False
             with self.lighting.without_shadows():
                 return self._small_renderer(size).render(scene, camera, **look).color
@@ -368,7 +368,7 @@ class ViewRenderer:
         if self.viewed.follow is not None:
             self.viewed.follow(pose[:3, 3])
         self.staging.follow(view, self.appearance, self.split, self._picture_alone)
-        camera, mode = self._camera(view), self.appearance.mode
+        camera, mode = self.camera(view), self.appearance.mode
         if self.viewed.detail is not None:
             self.viewed.detail(camera, pose, self.size)
         if self.split:
@@ -422,7 +422,8 @@ class ViewRenderer:
             else size_in_picture(pixels, self.size[1])
         )
 
-    def _camera(self, view: AnyView) -> Camera:
+    def camera(self, view: AnyView) -> Camera:
+        """Return the camera of a view."""
         if isinstance(view, CameraView):
             return self._reaching_camera(view)
         clearance = self.viewed.clearance
@@ -449,11 +450,11 @@ class ViewRenderer:
 
         While culling is frozen, `stats` stay unchanged, and frames are not reported.
         """
-        self.culling.camera = None if view is None else (self._camera(view), view.pose())
+        self.culling.camera = None if view is None else (self.camera(view), view.pose())
 
     def choose_debug(self, drawing: str | None, view: Viewpoint) -> None:
         """Choose a debug drawing of culling, one of `DEBUG_DRAWINGS`, as seen from a view."""
-        self.culling.choose(drawing, (self._camera(view), view.pose()))
+        self.culling.choose(drawing, (self.camera(view), view.pose()))
 
     def text_scale(self, picture: Canvas | Frame) -> int:
         """Return the font scale of texts over a `Canvas` or `Frame`."""

@@ -28,6 +28,11 @@ def scene():
 
 
 @functools.cache
+def drawing():
+    return e3d.drawings.line_drawing(mesh(), threads=1)
+
+
+@functools.cache
 def sheet():
     return e3d.sheets.contact_sheet(mesh(), size=(240, 240), views="iso", threads=1)
 
@@ -398,6 +403,29 @@ CALLS = {
             "size": (300, 400),
             "up": "+Z",
             "unit": "mm",
+            "threads": 1,
+        },
+    ),
+    "line_drawing": (
+        lambda **a: e3d.drawings.line_drawing(mesh(), **a),
+        {"size": (300, 400), "unit": "mm", "crease_angle": 0.5, "threads": 1},
+    ),
+    "LineDrawing.svg": (
+        lambda **a: drawing().svg(**a),
+        {"hidden": True, "line_width": 0.5},
+    ),
+    "drawing_sheet": (
+        lambda **a: e3d.drawings.drawing_sheet(mesh(), **a),
+        {
+            "views": "front,iso",
+            "sections": ("x",),
+            "page": "A4",
+            "scale": 0.001,
+            "title": "part",
+            "up": "+Z",
+            "unit": "mm",
+            "crease_angle": 0.5,
+            "line_width": 0.5,
             "threads": 1,
         },
     ),

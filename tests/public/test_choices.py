@@ -10,6 +10,7 @@ import pytest
 import engine3d as e3d
 from engine3d import choices
 from engine3d._native import rasterizer as native
+from engine3d.apps.drawings import line_kinds, units
 from engine3d.apps.viewer import pixels
 from engine3d.apps.viewer.window import POINTERS
 from engine3d.io.formats.urdf import urdf_joints
@@ -64,6 +65,9 @@ ACCEPTED = {
     "ShapesOf": robot_options.SHAPES_OF,
     "LookName": look.LOOKS,
     "Backdrop": [*look.THEMED, "scene"],
+    "LineKind": line_kinds.KINDS,
+    "PageSize": units.PAGES,
+    "LengthUnit": units.UNITS,
     "EulerOrder": ["".join(order) for order in permutations("XYZ")],
 }
 

@@ -93,6 +93,8 @@ COPIED = {
     "DetailedInstances": lambda: e3d.detail.DetailedInstances([(painted(), 0.0)], [(0, 0, 0, 1)]),
     "DetailedMeshes": lambda: e3d.detail.DetailedMeshes([((painted(),), 0.0)]),
     "Sheet": lambda: e3d.sheets.contact_sheet(painted(), size=(240, 240), views="iso", threads=1),
+    "LineDrawing": lambda: e3d.drawings.line_drawing(painted(), threads=1),
+    "DrawingSheet": lambda: e3d.drawings.drawing_sheet(painted(), threads=1),
     "World": lambda: e3d.worlds.city(20_000, seed=1),
 }
 

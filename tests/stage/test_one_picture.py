@@ -138,7 +138,7 @@ def test_views_show_files_as_render_does(path):
     view = notebook.View(path, size=SIZE)
     drawn = view._view_renderer
     seen = view._viewer.view
-    camera = drawn._camera(seen), pose_in_file(drawn.viewed, seen.pose())
+    camera = drawn.camera(seen), pose_in_file(drawn.viewed, seen.pose())
     still = e3d.loaders.load_texture(io.BytesIO(view._still())).pixels
     view.close()
     same(still[..., :3], e3d.render(path, camera, size=SIZE).color[..., :3])

@@ -42,7 +42,7 @@ def test_a_model_casts_a_shadow_on_the_ground():
         shown = renderer.draw(view).color.astype(int)
         shadow_of(renderer).visible = False
         bare = renderer.renderer.render(
-            renderer.staging.scene, (renderer._camera(view), view.pose())
+            renderer.staging.scene, (renderer.camera(view), view.pose())
         ).color
         shadow = shadow_of(renderer).object
     alpha = shadow.materials[0].texture.pixels[..., 3]
@@ -160,7 +160,7 @@ def ground_of(scene, size, view_of, **settings):
             renderer.fill(view)
             frame = renderer.draw(view, outputs=("color", "object_id"))
             renderer.staging._studio.hide_ground()
-            look = (renderer._camera(view), view.pose())
+            look = (renderer.camera(view), view.pose())
             bare = renderer.renderer.render(
                 renderer.staging.scene, look, **renderer._appearance()
             ).color
@@ -193,7 +193,7 @@ def test_what_moves_lower_than_before_is_not_hidden_by_the_ground():
         next(iter(scene.nodes)).translation = (0.0, -0.4, 0.0)
         frame = renderer.draw(view, outputs=("color", "object_id"))
         renderer.staging._studio.hide_ground()
-        look = (renderer._camera(view), view.pose())
+        look = (renderer.camera(view), view.pose())
         bare = renderer.renderer.render(
             renderer.staging.scene, look, **renderer._appearance()
         ).color

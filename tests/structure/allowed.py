@@ -6,6 +6,7 @@ Where a breach is to stay, a comment says why.
 # Keywords are what users write. Those of compat.pybullet and compat.pyrender are these packages'.
 LONG_SIGNATURES = (
     "apps.batch.running.run",
+    "apps.drawings.drawing_sheet.drawing_sheet",
     "apps.sheet.contact_sheet.contact_sheet",
     "compat.pybullet.camera_image.getCameraImage",
     "compat.pyrender.material.__init__",

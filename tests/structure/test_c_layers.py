@@ -20,6 +20,7 @@ FOLDERS = {
     "check/fuzz": {"check/driver", "include", "io/images", "io/loaders"},
     "data": {"base", "include"},
     "extras/canvas": {"include"},
+    "extras/drawing": {"base", "include"},
     "extras/mujoco": {"base", "include"},
     "extras/pybullet": {"base", "include"},
     "extras/pyrender": {"base", "data", "include"},

@@ -30,7 +30,7 @@ def view_from(view_renderer, elevation, distance):
 
 
 def draw(view_renderer, view, znear=None, outputs=("color",)):
-    camera = view_renderer._camera(view)
+    camera = view_renderer.camera(view)
     if znear is not None:
         camera = e3d.PerspectiveCamera(view.yfov, znear=znear, zfar=camera.zfar)
     with Renderer(SIZE) as renderer:
@@ -82,7 +82,7 @@ def test_the_near_plane_cuts_nothing_off(view_renderer):
         view = view_from(view_renderer, random.uniform(2, 90), random.uniform(0.05, 1.2))
         view.azimuth = random.uniform(-math.pi, math.pi)
         view.target = view.target + random.uniform(-150, 150, 3) * (1, 0, 1)
-        znear = view_renderer._camera(view).znear
+        znear = view_renderer.camera(view).znear
         depth = draw(view_renderer, view, znear=0.05, outputs=("depth",)).depth
         assert depth[depth > 0].min() >= znear or znear <= 0.1
         far += znear > 20.0
@@ -135,4 +135,4 @@ def test_what_shines_depends_on_the_place_alone(view_renderer):
 def test_one_who_walks_sees_what_is_near(view_renderer):
     view = view_renderer.view()
     controller(view_renderer, view).place(view)
-    assert view_renderer._camera(view).znear == 0.1
+    assert view_renderer.camera(view).znear == 0.1

@@ -35,6 +35,17 @@ def size(text: str) -> tuple[int, int]:
     return width, height
 
 
+def drawing_scale(text: str) -> float:
+    """Parse the scale of a drawing, such as ``1:2``."""
+    from ...errors import InvalidArgumentError
+    from ..drawings.units import parse_scale
+
+    try:
+        return parse_scale(text)
+    except InvalidArgumentError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
 def number(text: str) -> float:
     """Parse a finite number."""
     try:

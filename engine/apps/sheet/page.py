@@ -14,7 +14,7 @@ from ...errors import InvalidArgumentError, printable
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
 from ...rendering.canvas import Canvas, text_size
-from ...rendering.support_functions import support_of_box, support_of_scene
+from ...rendering.support_functions import support_of_scene
 from ...stage.look import Look
 from ...stage.viewed_scene import ViewedScene
 from ...stage.views.viewpoint import UP_DIRECTIONS
@@ -23,7 +23,7 @@ from .hidden import AloneScene
 from .layout import Padding, Reach, Rectangle, lay_out
 from .panel_renderer import PanelRenderer
 from .panels import Panel, Place, draw_panel
-from .placing import Extent, find_extent, place_camera
+from .placing import Extent, find_extents, fitting_scale, place_camera
 from .report import ModelReport
 from .views import ViewSpec
 
@@ -108,7 +108,7 @@ class _Page:
         self._check_cameras(specs, cameras)
         studio = PanelRenderer(self._model, self._up, *dress)
         alone = AloneScene(scene)
-        extents = self._extents(studio, specs)
+        extents = find_extents(specs, support_of_scene(scene), studio.bounds, studio.up)
         x, y, width, height = self._area
         margin, title, foot = (side * text for side in (_MARGIN, _TITLE, _FOOT))
         room = Rectangle(x + margin, y + title, width - 2 * margin, height - title - foot)
@@ -141,29 +141,18 @@ class _Page:
     def _padding(self, padding: Padding) -> Padding:
         return Padding(*(side * self._text for side in padding))
 
-    def _extents(self, studio: PanelRenderer, specs) -> list[Extent]:
-        support = support_of_scene(studio.scene)
-        if support is None:
-            support = support_of_box(studio.bounds)
-        center = (studio.bounds[0] + studio.bounds[1]) * 0.5
-        found = []
-        for spec in specs:
-            sight = spec if spec.camera is None else ViewSpec("", angles=(0.0, 0.0))
-            found.append(find_extent(support, center, sight.axes(studio.up)))
-        return found
-
     def _choose_paper(self, studio: PanelRenderer, extent: Extent) -> None:
         if studio.has_faces:
             return  # lines separate drawings of faces from any background
         area = Rectangle(0, 0, 160, 120)
-        scale = _fitting_scale(extent, area, Padding(0, 0, 0, 0))
+        scale = fitting_scale(extent, area, Padding(0, 0, 0, 0))
         studio.choose_paper(*place_camera(extent, studio.sphere, area, Padding(0, 0, 0, 0), scale))
 
     def _place(self, spec, extent: Extent, rectangle: Rectangle, scale: float) -> Place:
         if spec.to_scale:
             return Place(spec, rectangle, extent, self._padding(_DRAWING), scale)
         padding = self._padding(_PICTURE)
-        own = _fitting_scale(extent, rectangle, padding)
+        own = fitting_scale(extent, rectangle, padding)
         return Place(spec, rectangle, extent, padding, own)
 
     def _mark_panel(self, panel: Panel, studio: PanelRenderer) -> None:
@@ -235,16 +224,6 @@ def _reaches(specs, extents) -> list[Reach]:
         share = 1.0 if spec.to_scale else _SHARE
         reaches.append(Reach(extent.size[0] * share, extent.size[1] * share))
     return reaches
-
-
-def _fitting_scale(extent: Extent, rectangle: Rectangle, padding: Padding) -> float:
-    """Return the pixels per unit at which a view fills the panel without padding."""
-    room = (
-        max(rectangle.width - padding.left - padding.right, 8),
-        max(rectangle.height - padding.top - padding.bottom, 8),
-    )
-    scales = [pixels / size for pixels, size in zip(room, extent.size[:2], strict=True) if size]
-    return min(scales, default=float(min(room)))
 
 
 def _facts(told: dict[str, Any]) -> str:

@@ -23,14 +23,20 @@ from .hidden import AloneScene
 from .layout import Padding, Rectangle
 from .outlines import draw_outlines
 from .panel_renderer import PanelRenderer
-from .placing import Extent, Matrices, cut, cut_obliquely, find_matrices, place_camera
+from .placing import (
+    Extent,
+    Matrices,
+    cut,
+    cut_obliquely,
+    find_matrices,
+    place_camera,
+    section_plane,
+)
 from .views import ViewSpec
 from .visible import SAME_COLOUR, box_of, contrast
 
 #: The instance number of cut faces, which no other object has.
 _CUT = 0x7FFFFFFF
-# Maximum distance of a section plane from the model's box, in radii of the model.
-_BESIDE = 0.01
 # Code values above this are bright.
 _MIDDLE = 127.5
 
@@ -200,18 +206,9 @@ def _camera(studio: PanelRenderer, place: Place, cameras: list[Node], origin):
 
 
 def _plane(studio: PanelRenderer, spec: ViewSpec, origin) -> Plane | None:
-    """Return the plane of a section, in the scene.
-
-    A plane that misses the model is moved next to it: that cuts off the same, all or nothing, while
-    a distant plane would exceed the camera's depth range and precision.
-    """
     if spec.section is None:
         return None
-    axis = spec.section.axis
-    low, high = (float(corner[axis]) + origin[axis] for corner in studio.bounds)
-    beside = studio.sphere.radius * _BESIDE
-    coordinate = min(max(spec.section.coordinate(low, high), low - beside), high + beside)
-    return Plane(axis, coordinate - origin[axis], spec.section.from_above)
+    return section_plane(spec.section, studio.bounds, studio.sphere.radius, origin)
 
 
 def _contrast(studio: PanelRenderer, panel: Panel) -> int:

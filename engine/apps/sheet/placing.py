@@ -6,20 +6,24 @@ pose, in the scene; matrices in the file's coordinates. Every sheet has the same
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ...base import linalg
 from ...model.scene.cameras import Camera, OrthographicCamera
-from ...rendering.support_functions import SupportFunction
+from ...rendering.support_functions import SupportFunction, support_of_box
 from ...stage.views.viewpoint import Sphere
 from .cutting import Plane
 from .layout import Padding, Reach, Rectangle
+from .views import Section, ViewSpec
 
 #: Distance of the eye from the middle in radii, and of the far plane beyond it: the ground shadow
 #: must fit.
 _AWAY = 4.0
+#: Maximum distance of a section plane from the model's box, in radii of the model.
+_BESIDE = 0.01
 
 
 class Extent(NamedTuple):
@@ -57,6 +61,61 @@ def find_extent(support: SupportFunction, center: np.ndarray, axes: np.ndarray) 
     # A size within rounding errors counts as 0.
     size[size < 1e-12 * float(size.max())] = 0.0
     return Extent(axes, middle, (float(size[0]), float(size[1]), float(size[2])))
+
+
+def find_extents(
+    specs: Iterable[ViewSpec], support: SupportFunction | None, bounds: np.ndarray, up: np.ndarray
+) -> list[Extent]:
+    """Return the extents of a model in views; those of cameras as from the front.
+
+    Parameters
+    ----------
+    specs : iterable of ViewSpec
+    support : SupportFunction or None
+        Of the model; by default of its box.
+    bounds : (2, 3) ndarray of float64
+    up : (3,) ndarray of float64
+    """
+    support = support_of_box((bounds[0], bounds[1])) if support is None else support
+    center = (bounds[0] + bounds[1]) * 0.5
+    front = ViewSpec("", angles=(0.0, 0.0))
+    sights = (spec if spec.camera is None else front for spec in specs)
+    return [find_extent(support, center, sight.axes(up)) for sight in sights]
+
+
+def fitting_scale(extent: Extent, rectangle: Rectangle, padding: Padding) -> float:
+    """Return the pixels per unit at which a view fills the panel without padding."""
+    room = (
+        max(rectangle.width - padding.left - padding.right, 8),
+        max(rectangle.height - padding.top - padding.bottom, 8),
+    )
+    scales = [pixels / size for pixels, size in zip(room, extent.size[:2], strict=True) if size]
+    return min(scales, default=float(min(room)))
+
+
+def section_plane(
+    section: Section, bounds: np.ndarray, radius: float, origin: Sequence[float]
+) -> Plane:
+    """Return the plane of a section, in the scene.
+
+    A plane that misses the model is moved next to it: that cuts off the same, all or nothing, while
+    a distant plane would exceed the camera's depth range and precision.
+
+    Parameters
+    ----------
+    section : Section
+    bounds : (2, 3) ndarray of float64
+        Of the model, in the scene.
+    radius : float
+        Of the sphere round the model.
+    origin : (float, float, float)
+        Of the scene, in the file's coordinates.
+    """
+    axis = section.axis
+    low, high = (float(corner[axis]) + origin[axis] for corner in bounds)
+    beside = radius * _BESIDE
+    coordinate = min(max(section.coordinate(low, high), low - beside), high + beside)
+    return Plane(axis, coordinate - origin[axis], section.from_above)
 
 
 def place_camera(

@@ -108,8 +108,8 @@ COMMANDS = {
     ),
     "render": Command(
         "draw a model or a scene to a file",
-        "Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP) or, with --turntable, to an "
-        "animation (GIF, WebP, APNG).",
+        "Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP), as lines (SVG, PDF) or, with "
+        "--turntable, to an animation (GIF, WebP, APNG).",
         _of_modules("scene_options", "render_options", "shared_options"),
         common=(*_OF_PICTURES, "--turntable", "--animation", "--no-background"),
     ),
@@ -128,7 +128,8 @@ COMMANDS = {
     "sheet": Command(
         "draw a model from several sides, with dimensions and a report",
         "Draw models from several sides on one sheet (PNG), with dimensions, axes and a scale, and "
-        "report as JSON what shows where and how pixels and the world are related.",
+        "report as JSON what shows where and how pixels and the world are related. Or draw the "
+        "lines of one model to scale (SVG, PDF).",
         _of_modules("sheet_options"),
     ),
     "convert": Command(

@@ -1,4 +1,4 @@
-"""``engine3d render``: writes a picture or turntable to a file or to standard output."""
+"""``engine3d render``: writes a picture, a turntable or a line drawing, or prints a picture."""
 
 from __future__ import annotations
 
@@ -13,15 +13,19 @@ from ....io.output.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES, 
 from ....stage import headless
 from ....stage.view_renderer import ViewRenderer
 from ....stage.viewed_scene import NotInModelError
+from ....stage.views.viewpoint import Viewpoint
+from ...drawings.units import SUFFIXES
 from ..one_by_one import draw_each, tried
 from ..options import scene_options
 from ..options import shared_options as options
+from ..options.drawing_options import drawing_keywords, is_drawing, looks
 from ..options.input_options import STANDARD_INPUT, jobs
 from ..options.picture_options import PICTURE
 from ..outputs import (
     STANDARD_OUTPUT,
     TERMINAL,
     check_animation,
+    check_folder,
     check_picture,
     check_standard_output,
     remark_on_size,
@@ -74,6 +78,9 @@ def _render(args: argparse.Namespace) -> int:
         viewed, DEFAULT_SIZE, PICTURE, report, transparent=args.no_background
     ) as view_renderer:
         view = how.first_view.place(view_renderer, turns=args.turntable is not None)
+        if is_drawing(args):
+            _write_lines(args, view_renderer, view)
+            return 0
         if _count(args) is not None:
             _write_pictures(args, view_renderer, view)
             warn_of_nothing(view_renderer)
@@ -105,6 +112,11 @@ def _check(args: argparse.Namespace) -> None:
             raise UsageError(f"{many} writes to a file, and compares with none")
         check_animation(args.output, transparent=args.no_background)
         return
+    if is_drawing(args):
+        if args.reference is not None:
+            raise UsageError("--reference compares pictures, not line drawings")
+        check_folder(args.output)
+        return
     if args.output == STANDARD_OUTPUT:
         check_standard_output()
         return
@@ -117,7 +129,7 @@ def _check(args: argparse.Namespace) -> None:
 
 def _meant(models: list[str]) -> str:
     """Return the corrected command, with ``-o``, if one of several models is plainly a picture."""
-    suffixes = (*PICTURE_SUFFIXES, *ANIMATION_SUFFIXES)
+    suffixes = (*PICTURE_SUFFIXES, *ANIMATION_SUFFIXES, *SUFFIXES)
     pictures = [name for name in models if name.lower().endswith(suffixes)]
     others = [name for name in models if name not in pictures]
     if len(pictures) != 1 or not others:
@@ -142,6 +154,16 @@ def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view)
     make_folder_of(args.output)
     save_animation(pictures, args.output, headless.seconds_a_frame(view_renderer, count))
     remark_on_size(args.output)
+
+
+def _write_lines(args: argparse.Namespace, view_renderer: ViewRenderer, view: Viewpoint) -> None:
+    """Write what a view shows as lines."""
+    from ...drawings.line_drawing import draw_lines
+
+    seen = view_renderer.camera(view), view.pose()
+    drawn = draw_lines(view_renderer.viewed, seen, view_renderer.size, **drawing_keywords(args))
+    make_folder_of(args.output)
+    drawn.save(args.output, **looks(args))
 
 
 def _print_picture(view_renderer: ViewRenderer, view) -> None:

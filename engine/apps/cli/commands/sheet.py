@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Iterable
 
 from ....base.files.atomic_write import atomic_write
 from ....base.files.making_folders import make_folder_of
 from ....errors import InvalidArgumentError
 from ....model.materials.material import Material
+from ...drawings.units import SUFFIXES
 from ...sheet.contact_sheet import Sheet, contact_sheet
 from ...sheet.views import DEFAULT_VIEWS, check_views
+from ..options.drawing_options import drawing_keywords, is_drawing, looks
 from ..options.input_options import model_files, of_robot
 from ..options.picture_options import look
 from ..options.scalar_options import marks
@@ -27,6 +30,8 @@ from ..usage import UsageError
 
 def sheet(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
+    if is_drawing(args):
+        return _draw_lines(args)
     report = _check(args)
     drawn = contact_sheet(
         model_files(args.models),
@@ -47,16 +52,50 @@ def sheet(args: argparse.Namespace) -> int:
     return 0
 
 
+def _draw_lines(args: argparse.Namespace) -> int:
+    """Write the lines of a model."""
+    from ...drawings.drawing_sheet import drawing_sheet
+
+    _check_views(args)
+    in_vain = [name for name in ("json", "report", "size", "color") if getattr(args, name)]
+    if in_vain or marks(args):
+        option = in_vain[0] if in_vain else "scalar-coloring"
+        raise UsageError(f"--{option} goes with pictures: -o FILE.png")
+    if len(args.models) != 1:
+        raise UsageError("a page of lines shows one MODEL")
+    if args.output == STANDARD_OUTPUT:
+        check_standard_output()
+    else:
+        check_folder(args.output)
+        _refuse_models(args, [args.output])
+    page = {} if args.page is None else {"page": args.page}
+    drawn = drawing_sheet(
+        model_files(args.models),
+        views=_views(args),
+        sections=args.section or (),
+        up=args.up,
+        unit=args.unit,
+        root=args.root,
+        title=args.title,
+        **page,
+        **drawing_keywords(args),
+        **looks(args),
+    )
+    if args.output == STANDARD_OUTPUT:
+        write_standard_output(drawn.svg().encode())
+    else:
+        make_folder_of(args.output)
+        drawn.save(args.output)
+    return 0
+
+
 def _views(args: argparse.Namespace) -> str:
     return DEFAULT_VIEWS if args.views is None else args.views
 
 
 def _check(args: argparse.Namespace) -> str | None:
     """Refuse impossible options before any work; return the report's path."""
-    try:
-        check_views(_views(args), args.section or ())
-    except InvalidArgumentError as error:
-        raise UsageError(f"--{error}") from None
+    _check_views(args)
     if args.output is None and args.report is None:
         raise UsageError("say where to write with -o FILE or --report FILE")
     report = args.report
@@ -71,14 +110,25 @@ def _check(args: argparse.Namespace) -> str | None:
     if args.output == STANDARD_OUTPUT:
         check_standard_output()
     elif args.output is not None:
-        check_output(args.output, (".png",), "a sheet")
+        check_output(args.output, (".png", *SUFFIXES), "a sheet")
     if report not in (None, STANDARD_OUTPUT):
         check_folder(report)
-    for path in args.models:
-        for output in filter(None, (args.output, report)):
-            if is_same_file(path, output):
-                raise UsageError(f"{output!r} is the model: write to another file")
+    _refuse_models(args, filter(None, (args.output, report)))
     return report
+
+
+def _check_views(args: argparse.Namespace) -> None:
+    try:
+        check_views(_views(args), args.section or ())
+    except InvalidArgumentError as error:
+        raise UsageError(f"--{error}") from None
+
+
+def _refuse_models(args: argparse.Namespace, outputs: Iterable[str]) -> None:
+    """Refuse to write to a model."""
+    for output in outputs:
+        if any(is_same_file(path, output) for path in args.models):
+            raise UsageError(f"{output!r} is the model: write to another file")
 
 
 def _write(output: str | None, report: str | None, drawn: Sheet) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .. import values
+from .drawing_options import add_lines
 
 
 def add(parser) -> None:
@@ -12,7 +13,8 @@ def add(parser) -> None:
         "-o",
         "--output",
         metavar="FILE",
-        help=".png, .jpg, .tga, .webp; - writes PNG to standard output, terminal: shows it there. "
+        help=".png, .jpg, .tga, .webp; .svg and .pdf draw lines; - writes PNG to standard output, "
+        "terminal: shows it there. "
         "{model}, {model.ext}, {model_ext}, {folder}, {date}, {n} (the first number that is free; "
         "{n:3} has three digits), {app} and {version} are filled in; {{ is a brace",
     )
@@ -47,3 +49,4 @@ def add(parser) -> None:
         metavar="D",
         help="largest root mean square difference that still passes, 0 to 1; 0 by default",
     )
+    add_lines(parser, is_page=False)

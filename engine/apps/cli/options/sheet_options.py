@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from .. import values
 from .camera_options import add_up
+from .drawing_options import add_lines
 from .input_options import add_robot, add_root
 from .picture_options import add_drawing, add_look
 from .scalar_options import add_scalars
@@ -20,7 +21,10 @@ def add(parser) -> None:
     )
     group = parser.add_argument_group("output")
     group.add_argument(
-        "-o", "--output", metavar="FILE", help="a .png file; - writes it to standard output"
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="a .png file; .svg and .pdf draw lines to scale; - writes PNG to standard output",
     )
     group.add_argument(
         "--json",
@@ -63,6 +67,7 @@ def add(parser) -> None:
     add_up(group)
     add_color(group)
     add_scalars(parser)
+    add_lines(parser, is_page=True)
     group = parser.add_argument_group("drawing")
     add_look(group)
     add_drawing(group)

@@ -1,0 +1,77 @@
+/* Line drawings without hidden lines: which parts of lines lie behind triangles, on a drawing of vectors.
+ * In: triangles and lines, each corner with its place in the world and on the drawing. Out: the pieces of lines, hidden or not.
+ * Always: any double is legal, and what is not finite hides nothing and has no pieces. All is the same for any number of threads.
+ * The method is that of docs/drawings.md: on the drawing, a triangle hides a stretch of a line that is found in closed form. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "e3d_status.h"
+
+/* A place on the drawing: right and down, the inverse of w (1 in parallel projections), and a depth that is linear on the drawing
+ * and less for what is nearer. */
+enum { E3D_SHEET_X,
+       E3D_SHEET_Y,
+       E3D_SHEET_INVERSE_W,
+       E3D_SHEET_DEPTH,
+       E3D_SHEET };
+
+typedef struct e3d_hiders {
+    const double *places; /* (vertices, 3): in the world */
+    const double *sheet;  /* (vertices, E3D_SHEET) */
+    const int32_t *faces; /* (count, 3), in range */
+    size_t count;         /* below 2^31 */
+    double eye[4];        /* the viewer, or the direction to him and 0 */
+    double thickness;     /* a line so near a triangle's plane lies on it, in the world's units */
+    double reach;         /* triangles reach so far beyond their sides, in the drawing's units */
+} e3d_hiders;
+
+typedef struct e3d_lines {
+    const double *places; /* (count, 2, 3) */
+    const double *sheet;  /* (count, 2, E3D_SHEET) */
+    size_t count;         /* below 2^31 */
+    double least;         /* shorter pieces belong to their neighbours, in the drawing's units */
+} e3d_lines;
+
+/* A stretch of a line, from 0 to 1 on the drawing. */
+typedef struct e3d_piece {
+    int32_t line, is_hidden;
+    double from, to;
+} e3d_piece;
+
+/* The pieces of lines, line by line, each from its beginning to its end; lines that are points on the drawing have none.
+ * *pieces is to be freed with free(). */
+e3d_status e3d_hide_lines(const e3d_hiders *hiders, const e3d_lines *lines, int threads, e3d_piece **pieces, size_t *count);
+
+/* The pieces of segments (count, 2, 2) on the drawing; those are hidden along which an earlier segment lies within `tolerance`. */
+e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolerance, int threads, e3d_piece **pieces, size_t *found);
+
+/* An edge of triangles. */
+typedef struct e3d_side {
+    int32_t low, high; /* its vertices */
+    int32_t first, second; /* 3 f + k: side k of face f; the second is -1 at a border */
+    int32_t uses;          /* how many triangles have it */
+} e3d_side;
+
+/* The edges of triangles (count, 3) of `vertices` vertices, each once, by their vertices in ascending order. Sides from a vertex
+ * to itself are none. *sides is to be freed with free(). */
+e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e3d_side **sides, size_t *found);
+
+/* The unit normals (count, 3) of triangles; 0 for those whose height is at most `lowest`, or that are not finite. */
+void e3d_find_normals(const double *places, const int32_t *faces, size_t count, double lowest, double *normals);
+
+/* For each of `count` triangles the least vertex of its body: of all triangles that hang together by vertices.
+ * above[vertices]: room to work in. */
+void e3d_number_bodies(const int32_t *faces, size_t count, size_t vertices, int32_t *above, int32_t *bodies);
+
+/* Segments in which triangles of different parts cross. */
+typedef struct e3d_crossing {
+    int32_t faces[2];
+    double ends[6];
+} e3d_crossing;
+
+/* The segments in which triangles whose parts differ cross, by their faces in ascending order. A corner within `thickness` of the
+ * other triangle's plane lies on it. *crossings is to be freed with free(). */
+e3d_status e3d_cross_surfaces(const double *places, const int32_t *faces, const int32_t *parts, size_t count, double thickness,
+                              int threads, e3d_crossing **crossings, size_t *found);

@@ -1,0 +1,170 @@
+# cython: boundscheck=False, wraparound=False, initializedcheck=False
+"""The gateway to line drawings in C: checks shapes, releases the GIL, makes one call.
+
+In:  arrays of triangles and lines, in the world and on the drawing. Out: arrays of pieces, of edges, of segments.
+Which lines there are, and how they look, is engine/apps/drawings's affair.
+"""
+
+import numpy as np
+
+from e3d cimport E3D_OK, E3D_OUT_OF_MEMORY, e3d_status
+from e3d_drawing cimport *
+from libc.stdint cimport int32_t, uint8_t
+from libc.stdlib cimport free
+from libc.string cimport memcpy
+
+from ..errors import InvalidArgumentError, OutOfMemoryError
+
+#: e3d_piece
+PIECE = np.dtype([("line", np.int32), ("is_hidden", np.int32), ("from", np.float64), ("to", np.float64)])
+#: e3d_side
+SIDE = np.dtype([(name, np.int32) for name in ("low", "high", "first", "second", "uses")])
+#: e3d_crossing
+CROSSING = np.dtype([("faces", np.int32, 2), ("ends", np.float64, 6)])
+#: Columns of places on the drawing.
+SHEET = E3D_SHEET
+
+
+cdef int require(bint condition, str message) except -1:
+    if not condition:
+        raise InvalidArgumentError(message)
+    return 0
+
+
+cdef int check(e3d_status status) except -1:
+    if status == E3D_OUT_OF_MEMORY:
+        raise OutOfMemoryError("no memory for a line drawing")
+    require(status == E3D_OK, "a line drawing of impossible arrays")
+    return 0
+
+
+cdef int check_indices(const int32_t[:, ::1] faces, size_t vertices) except -1:
+    require(faces.shape[1] == 3, "faces have three vertices")
+    require(<size_t>faces.shape[0] < 2**31 // 3, "more triangles than a drawing takes")
+    if faces.shape[0]:
+        indices = np.asarray(faces)
+        require(0 <= indices.min() and indices.max() < vertices, "faces name vertices that are not there")
+    return 0
+
+
+cdef object taken(void **data, size_t count, object dtype):
+    """An array with a copy of what C allocated, which is freed."""
+    array = np.empty(count, dtype)
+    cdef uint8_t[::1] view
+    if count:
+        view = array.view(np.uint8)
+        memcpy(&view[0], data[0], view.shape[0])
+    free(data[0])
+    data[0] = NULL
+    return array
+
+
+def hide_lines(
+    const double[:, ::1] places not None, const double[:, ::1] sheet not None, const int32_t[:, ::1] faces not None,
+    const double[::1] eye not None, double thickness, double reach,
+    const double[:, :, ::1] line_places not None, const double[:, :, ::1] line_sheet not None, double least, int threads,
+) -> NDArray[Any]:
+    """Return the pieces (P,) of `PIECE` of lines (N, 2, 3) and (N, 2, 4) before and behind triangles.
+
+    Triangles are of vertices (V, 3) and (V, 4): in the world, and on the drawing.
+    """
+    cdef e3d_hiders hiders
+    cdef e3d_lines lines
+    cdef e3d_piece *pieces = NULL
+    cdef size_t count = 0
+    cdef e3d_status status
+    cdef int k
+    require(places.shape[1] == 3 and sheet.shape[1] == SHEET and places.shape[0] == sheet.shape[0] and eye.shape[0] == 4,
+            "the arrays of triangles do not fit each other")
+    require(line_places.shape[0] == line_sheet.shape[0] and line_places.shape[1] == 2 and line_sheet.shape[1] == 2
+            and line_places.shape[2] == 3 and line_sheet.shape[2] == SHEET, "the arrays of lines do not fit each other")
+    check_indices(faces, places.shape[0])
+    if line_places.shape[0] == 0:
+        return np.empty(0, PIECE)
+    hiders.places = &places[0, 0] if places.shape[0] else NULL
+    hiders.sheet = &sheet[0, 0] if places.shape[0] else NULL
+    hiders.faces = &faces[0, 0] if faces.shape[0] else NULL
+    hiders.count, hiders.thickness, hiders.reach = faces.shape[0], thickness, reach
+    for k in range(4):
+        hiders.eye[k] = eye[k]
+    lines.places, lines.sheet = &line_places[0, 0, 0], &line_sheet[0, 0, 0]
+    lines.count, lines.least = line_places.shape[0], least
+    with nogil:
+        status = e3d_hide_lines(&hiders, &lines, threads, &pieces, &count)
+    check(status)
+    return taken(<void **>&pieces, count, PIECE)
+
+
+def hide_repeated(const double[:, ::1] segments not None, double tolerance, int threads) -> NDArray[Any]:
+    """Return the pieces (P,) of `PIECE` of segments (N, 4); hidden are those on an earlier segment."""
+    cdef e3d_piece *pieces = NULL
+    cdef size_t count = 0
+    cdef e3d_status status
+    require(segments.shape[1] == 4, "segments have two ends")
+    if segments.shape[0] == 0:
+        return np.empty(0, PIECE)
+    with nogil:
+        status = e3d_hide_repeated(&segments[0, 0], segments.shape[0], tolerance, threads, &pieces, &count)
+    check(status)
+    return taken(<void **>&pieces, count, PIECE)
+
+
+def find_sides(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArray[Any]:
+    """Return the edges (E,) of `SIDE` of triangles (F, 3), by their vertices in ascending order."""
+    cdef e3d_side *sides = NULL
+    cdef size_t count = 0
+    cdef e3d_status status
+    check_indices(faces, vertices)
+    if faces.shape[0] == 0:
+        return np.empty(0, SIDE)
+    with nogil:
+        status = e3d_find_sides(&faces[0, 0], faces.shape[0], vertices, &sides, &count)
+    check(status)
+    return taken(<void **>&sides, count, SIDE)
+
+
+def find_normals(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, double lowest) -> NDArray[np.float64]:
+    """Return the unit normals (F, 3) of triangles; 0 for those whose height is at most ``lowest``."""
+    require(places.shape[1] == 3, "places have three coordinates")
+    check_indices(faces, places.shape[0])
+    normals = np.empty((faces.shape[0], 3))
+    cdef double[:, ::1] view = normals
+    cdef size_t count = faces.shape[0]
+    if count:
+        with nogil:
+            e3d_find_normals(&places[0, 0], &faces[0, 0], count, lowest, &view[0, 0])
+    return normals
+
+
+def find_bodies(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArray[np.int32]:
+    """Return for each triangle (F, 3) the least vertex of all triangles that hang together with it."""
+    check_indices(faces, vertices)
+    bodies = np.empty(faces.shape[0], np.int32)
+    above = np.empty(vertices, np.int32)
+    cdef int32_t[::1] view = bodies
+    cdef int32_t[::1] room = above
+    cdef size_t count = faces.shape[0]
+    if count:
+        with nogil:
+            e3d_number_bodies(&faces[0, 0], count, vertices, &room[0], &view[0])
+    return bodies
+
+
+def cross_surfaces(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, const int32_t[::1] parts not None,
+                   double thickness, int threads) -> NDArray[Any]:
+    """Return the segments (S,) of `CROSSING` in which triangles (F, 3) of different parts (F,) cross."""
+    cdef e3d_crossing *crossings = NULL
+    cdef size_t count = 0
+    cdef e3d_status status
+    require(places.shape[1] == 3 and parts.shape[0] == faces.shape[0], "the arrays of triangles do not fit each other")
+    check_indices(faces, places.shape[0])
+    if faces.shape[0] == 0:
+        return np.empty(0, CROSSING)
+    with nogil:
+        status = e3d_cross_surfaces(&places[0, 0], &faces[0, 0], &parts[0], faces.shape[0], thickness, threads, &crossings, &count)
+    check(status)
+    return taken(<void **>&crossings, count, CROSSING)
+
+
+require(PIECE.itemsize == sizeof(e3d_piece) and SIDE.itemsize == sizeof(e3d_side) and CROSSING.itemsize == sizeof(e3d_crossing),
+        "the records differ from the core's")

@@ -1,0 +1,228 @@
+"""The edges of a mesh that a line drawing may show, whatever the view.
+
+In: the arrays of a mesh. Out: its triangles without what is broken, and each of their edges once,
+with the triangles at both sides and whether it is a crease or a border. Vertices at exactly the
+same place are one point, as for creases.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..._native import drawing as native
+from ..._native import loaders
+from ...base import linalg
+from ...model.geometry.derived import arrays_of
+from ...model.geometry.mesh import Mesh
+
+#: Triangles lower than this share of the largest coordinate have no direction of their own:
+#: coordinates are rounded to 24 bits.
+FLAT = 2.0**-21
+#: Cosine of the angle between normals that count as one.
+_ONE_NORMAL = 0.9999
+#: So often a flat triangle's neighbour is looked for behind another flat one.
+_FLAT_STEPS = 8
+
+
+class MeshEdges(NamedTuple):
+    """The triangles and edges of a mesh.
+
+    Attributes
+    ----------
+    positions : (P, 3) float64
+        Each point once, in object space.
+    faces : (F, 3) int32
+        Finite triangles of three points, each once.
+    sources : (F,) int64
+        Their numbers in ``mesh.faces``.
+    ends : (E, 2) int32
+        The points of each edge.
+    beside : (E, 2) int32
+        The triangles at its sides, -1 for none.
+    turned : (E,) bool
+        Whether these have opposite winding.
+    creases, borders : (E,) bool
+        A border is an edge of one triangle; a crease is sharp, or an edge of more than two.
+    lines : (L, 2) int32
+        The mesh's own lines.
+    """
+
+    positions: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    sources: NDArray[np.int64]
+    ends: NDArray[np.int32]
+    beside: NDArray[np.int32]
+    turned: NDArray[np.bool_]
+    creases: NDArray[np.bool_]
+    borders: NDArray[np.bool_]
+    lines: NDArray[np.int32]
+
+
+@np.errstate(all="ignore")
+def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
+    """Return the triangles and edges of a mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    crease_angle : float
+        Radians: triangles that meet at more than this angle have a crease between them, unless the
+        mesh has normals of its own that do not break there.
+    """
+    arrays = arrays_of(mesh)
+    points, first = loaders.number_rows(arrays["positions"].view(np.uint32), True)
+    positions = arrays["positions"][first].astype(np.float64)
+    is_finite = np.isfinite(positions).all(axis=1)
+    positions[~is_finite] = 0.0  # nothing that is drawn uses them
+    faces, sources = _sound_faces(points[arrays["faces"]], is_finite)
+    normals, is_flat = face_normals(positions, faces)
+    if is_flat.any():
+        needed = _needed_faces(positions, faces, is_flat)
+        faces, sources = np.ascontiguousarray(faces[needed]), sources[needed]
+        normals, is_flat = normals[needed], is_flat[needed]
+    sides = native.find_sides(faces, len(positions))
+    ends = np.stack([sides["low"], sides["high"]], axis=1)
+    beside = np.stack([sides["first"] // 3, np.where(sides["uses"] > 1, sides["second"] // 3, -1)])
+    beside = np.ascontiguousarray(beside.T, np.int32)
+    borders = sides["uses"] == 1
+    creases = sides["uses"] > 2
+    pairs = np.flatnonzero(sides["uses"] == 2)
+    is_needless = _see_through_flat_faces(sides, beside, faces, positions, is_flat)
+    turned = np.zeros(len(sides), bool)
+    turned[pairs] = _turned(sides[pairs], faces)
+    cosines = linalg.dot(normals[beside[pairs, 0]], normals[beside[pairs, 1]])
+    cosines = np.where(turned[pairs], -cosines, cosines)
+    sharp = cosines < float(linalg.cos(crease_angle))
+    sharp &= ~is_flat[beside[pairs]].any(axis=1)
+    if arrays["edge_visible"] is not None:
+        sharp &= _shown(sides[pairs], arrays["edge_visible"][sources])
+    if arrays["_given_normals"] is not None:
+        corners = arrays["faces"][sources].reshape(-1)
+        sharp &= _broken(sides[pairs], faces, arrays["_given_normals"][corners])
+    creases[pairs] = sharp
+    lines = arrays["lines"]
+    lines = np.zeros((0, 2), np.int32) if lines is None else points[lines]
+    kept = ~is_needless
+    return MeshEdges(
+        positions,
+        faces,
+        sources,
+        ends[kept],
+        beside[kept],
+        turned[kept],
+        creases[kept],
+        borders[kept],
+        lines[is_finite[lines].all(axis=1)],
+    )
+
+
+def face_normals(
+    positions: NDArray[np.float64], faces: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the unit normals of triangles, (F, 3), and which are too flat to have one."""
+    limit = FLAT * float(np.abs(positions).max(initial=0.0))
+    normals = native.find_normals(positions, faces, limit)
+    return normals, ~normals.any(axis=1)
+
+
+def _sound_faces(
+    faces: NDArray[np.int32], is_finite: NDArray[np.bool_]
+) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """Return the finite triangles of three points, each once, and their numbers."""
+    ordered = np.sort(faces, axis=1)
+    sound = is_finite[faces].all(axis=1) & (np.diff(ordered, axis=1) != 0).all(axis=1)
+    kept = np.flatnonzero(sound)
+    rows = np.ascontiguousarray(ordered[kept])
+    if loaders.rows_repeat(rows.view(np.uint32), False):
+        kept = kept[loaders.number_rows(rows.view(np.uint32), False)[1]]
+    return np.ascontiguousarray(faces[kept]), kept
+
+
+def _needed_faces(
+    positions: NDArray[np.float64], faces: NDArray[np.int32], is_flat: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Return which triangles are not flat, or close a gap between others."""
+    needed = ~is_flat
+    sides = native.find_sides(np.ascontiguousarray(faces[needed]), len(positions))
+    gaps = sides[sides["uses"] == 1]
+    flat = np.flatnonzero(~needed)
+    ends = np.sort(np.stack([faces[flat], np.roll(faces[flat], -1, axis=1)], axis=-1), axis=-1)
+    keys = ends[..., 0].astype(np.int64) * len(positions) + ends[..., 1]
+    open_keys = gaps["low"].astype(np.int64) * len(positions) + gaps["high"]
+    needed[flat] = np.isin(keys, open_keys).any(axis=1)
+    return needed
+
+
+def _following(sides: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return the corners at which sides 3 f + k end."""
+    return sides + np.where(sides % 3 == 2, -2, 1)
+
+
+def _turned(sides: NDArray[np.void], faces: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Return which edges both of their triangles run through in the same direction."""
+    corners = faces.reshape(-1)
+    return corners[sides["first"]] == corners[sides["second"]]
+
+
+def _shown(sides: NDArray[np.void], edge_visible: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    flags = edge_visible.reshape(-1)
+    return flags[sides["first"]] | flags[sides["second"]]
+
+
+def _broken(
+    sides: NDArray[np.void], faces: NDArray[np.int32], normals: NDArray[np.float32]
+) -> NDArray[np.bool_]:
+    """Return at which edges normals of corners (3 F, 3) differ between two triangles."""
+    corners = faces.reshape(-1)
+    first, second = sides["first"], sides["second"]
+    same_way = corners[first] == corners[second]
+    starts = np.where(same_way, second, _following(second))
+    ends = np.where(same_way, _following(second), second)
+    pairs = (first, starts), (_following(first), ends)
+    broken = np.zeros(len(sides), bool)
+    for one, other in pairs:
+        a, b = (normals[corner].astype(np.float64) for corner in (one, other))
+        broken |= linalg.dot(a, b) < _ONE_NORMAL * linalg.length(a) * linalg.length(b)
+    return broken
+
+
+def _see_through_flat_faces(
+    sides: NDArray[np.void],
+    beside: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    positions: NDArray[np.float64],
+    is_flat: NDArray[np.bool_],
+) -> NDArray[np.bool_]:
+    """Put the neighbour behind it in place of each flat triangle, in ``beside``.
+
+    A flat triangle is but its longest side. Its two others border on what is behind that one.
+
+    Returns
+    -------
+    (E,) bool
+        The longest sides, which separate nothing.
+    """
+    needless = np.zeros(len(sides), bool)
+    flat = np.flatnonzero(is_flat)
+    if not len(flat):
+        return needless
+    edge_of = np.full(3 * len(faces), -1)
+    edge_of[sides["first"]] = np.arange(len(sides))
+    second = sides["uses"] > 1
+    edge_of[sides["second"][second]] = np.flatnonzero(second)
+    corners = positions[faces[flat]]
+    lengths = linalg.length(np.roll(corners, -1, axis=1) - corners)
+    longest = edge_of[3 * flat + lengths.argmax(axis=1)]
+    through = np.arange(len(faces))
+    known = longest >= 0
+    own, edges = flat[known], longest[known]
+    pair = beside[edges]
+    through[own] = np.where(pair[:, 0] == own, pair[:, 1], pair[:, 0])
+    needless[edges] = sides["uses"][edges] == 2
+    for _ in range(_FLAT_STEPS):
+        kept = beside >= 0
+        beside[kept] = through[beside[kept]]
+    return needless

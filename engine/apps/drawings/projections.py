@@ -1,0 +1,108 @@
+"""The projection of a camera onto paper.
+
+In: a camera, its pose, the paper's frame. Out: places on the paper and depths; planes that clip;
+the homogeneous point from which all is seen. All is float64: drawings are the same everywhere.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base import linalg
+from ...model.scene.cameras import Camera
+
+#: The least w, as a share of the largest: nothing may be drawn behind the viewer.
+_LEAST_W = 2.0**-30
+
+
+class Projection(NamedTuple):
+    """A projection from the world to paper.
+
+    Attributes
+    ----------
+    clip_from_world : (4, 4) float64
+    size : (float, float)
+        Width and height of the frame on paper, in millimetres; x right, y down.
+    is_parallel : bool
+    """
+
+    clip_from_world: NDArray[np.float64]
+    size: tuple[float, float]
+    is_parallel: bool
+
+    def eye(self) -> NDArray[np.float64]:
+        """Return the viewer's position and 1, or the direction to him and 0, up to a factor."""
+        x, y, depth, w = self.clip_from_world
+        rows = np.stack([x, y, w])
+        columns = [np.delete(rows, k, axis=1) for k in range(4)]
+        signs = (1.0, -1.0, 1.0, -1.0)
+        eye = np.array([s * _determinant(c) for s, c in zip(signs, columns, strict=True)])
+        eye = eye / np.abs(eye).max()
+        if self.is_parallel:
+            eye[3] = 0.0
+            return eye if float(linalg.dot(depth[:3], eye[:3])) < 0.0 else -eye
+        return eye if eye[3] > 0.0 else -eye
+
+    def on_paper(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return x, y, 1 / w and depth of places (N, 3) whose w is positive: (N, 4)."""
+        x, y, depth, w = (linalg.dot(places, row[:3]) + row[3] for row in self.clip_from_world)
+        width, height = self.size
+        inverse = 1.0 / w
+        across, down = (x * inverse + 1.0) * (0.5 * width), (1.0 - y * inverse) * (0.5 * height)
+        return np.stack([across, down, inverse, depth if self.is_parallel else -inverse], axis=1)
+
+    def planes(self, bounds: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the planes (K, 4) before which something is drawn, for a box (2, 3)."""
+        _, _, depth, w = self.clip_from_world
+        found = [w + depth, w - depth]
+        if not self.is_parallel:
+            reach = np.abs(w[:3]) * np.abs(bounds).max(axis=0)
+            least = w.copy()
+            least[3] -= _LEAST_W * (float(reach.sum()) + abs(float(w[3])))
+            found.append(least)
+        return np.stack(found)
+
+    def sides(self) -> NDArray[np.float64]:
+        """Return the planes (4, 4) of the frame's sides."""
+        x, y, _, w = self.clip_from_world
+        return np.stack([w + x, w - x, w + y, w - y])
+
+    def scale_at(self, inverse_w: NDArray[np.float64]) -> float:
+        """Return the millimetres per world unit at the middle one of places' 1 / w."""
+        if not inverse_w.size:
+            return 1.0
+        rows = linalg.length(self.clip_from_world[:2, :3])
+        usual = float(np.partition(inverse_w, inverse_w.size // 2, axis=None)[inverse_w.size // 2])
+        return 0.5 * usual * float(np.maximum(rows[0] * self.size[0], rows[1] * self.size[1]))
+
+
+def _determinant(m: NDArray[np.float64]) -> float:
+    return float(linalg.dot(m[0], linalg.cross(m[1], m[2])))
+
+
+def projection_of(
+    camera: Camera,
+    pose: NDArray[np.float64],
+    size: tuple[float, float],
+    pixels: tuple[int, int] | None = None,
+) -> Projection:
+    """Return the projection of a camera onto a frame in millimetres.
+
+    Parameters
+    ----------
+    camera : Camera
+    pose : (4, 4) float64
+        world-from-camera.
+    size : (float, float)
+    pixels : (int, int), optional
+        The picture's size, whose aspect the camera has; by default that of the frame.
+    """
+    shape = pixels or (max(round(size[0] * 1000), 1), max(round(size[1] * 1000), 1))
+    projection = np.array(camera.projection(shape), np.float64)
+    w = projection[3]
+    is_parallel = not w[:3].any()
+    projection = projection / (float(w[3]) if is_parallel else float(np.abs(w).max()))
+    return Projection(linalg.multiply(projection, linalg.inverse(pose)), size, is_parallel)

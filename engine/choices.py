@@ -73,6 +73,7 @@ OutputMode = Literal[
     "emissive",
     "tangent",
     "radiance",
+    "range",
     "instance_id",
     "material_id",
 ]

@@ -130,12 +130,12 @@ def _cast(
     directions = np.ascontiguousarray(linalg.normalize(directions))
     ids = np.empty((len(origins), 3), np.int32)
     values = np.empty((len(origins), 10))
-    done, missing = 0, 0
-    while missing >= 0:
-        done, missing = scene.data.arrays.cast(
-            objects.shapes, origins, directions, max_distance, number, ids, values, done
-        )
-        if missing >= 0:
+    lacks = np.zeros(len(origins), np.int32)
+    cast = scene.data.arrays.cast
+    while not cast(
+        objects.shapes, origins, directions, max_distance, number, ids, values, lacks, 0
+    ):
+        for missing in np.unique(lacks[lacks >= 0]).tolist():
             tell(objects.shapes, missing, objects.objects[missing])
     return ids, values
 

@@ -1,0 +1,377 @@
+"""LiDARs: sensors that measure distances along beams, such as spinning ones on cars and robots.
+
+In: a pattern of beams, a scene, the sensor's pose or its motion. Out: a `LidarScan`. Each beam is a
+ray of the scene's own ray casting, in float64, so that IDs and distances are exactly those that
+`Scene.raycast` finds; results are rounded once to float32: the same bits everywhere (R186).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..._native.loaders import frozen
+from ...base import linalg
+from ...base.angles import angles
+from ...base.calls import checks_types
+from ...base.numbers import floats, shown
+from ...base.validation import (
+    CheckedAttribute,
+    Closed,
+    NumberAttribute,
+    choose,
+    fraction,
+    matrix4,
+    positive,
+    whole_number,
+)
+from ...errors import InvalidArgumentError
+from ...model.motion.interpolation import straight, turns
+from ...model.scene.scene import Scene
+from ...model.spatial.rays import RayHits
+from .lidar_patterns import PATTERNS
+from .reflectance import reflectances_of
+from .scans import LidarScan
+
+_MOST_BEAMS = 1 << 24
+# A sensor's axes are x forward, y left, z up; those of its node are as a camera's.
+_NODE_FROM_SENSOR = np.array(
+    [(0.0, -1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (-1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)]
+)
+_ROUNDING = 1e-6
+_ULP = 2.0**-53
+
+
+def _distance(value: float, what: str) -> float:
+    number = float(floats(value, what))
+    if not number >= 0.0:
+        raise InvalidArgumentError(f"{what} must be 0 or more, not {shown(value)}")
+    return number
+
+
+class Lidar(Closed):
+    """A LiDAR: a pattern of beams from one point.
+
+    `Lidar.of` has the patterns of common sensors, `Lidar.spinning` and `Lidar.raster` make others.
+
+    Parameters
+    ----------
+    elevations : (rings,) or (rings, columns) float
+        Radians above the sensor's horizon.
+    azimuths : (columns,) or (rings, columns) float
+        Radians to the left of forward.
+    times : (columns,) or (rings, columns) float, optional
+        Seconds after the start of the scan at which the beams are sent; by default all 0.
+    duration : float
+        Seconds of the whole scan, during which a moving sensor goes from one pose to the other.
+    min_range, max_range : float
+        World units: nearer and farther surfaces give no return. Nearer ones still hide others.
+
+    Attributes
+    ----------
+    elevations, azimuths, times : (rings, columns) float64, read-only
+    shape : (int, int)
+        Rings and columns.
+    directions : (rings, columns, 3) float64
+        Unit vectors in the sensor's space: x forward, y left, z up.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    duration: NumberAttribute = CheckedAttribute(positive)
+    min_range: NumberAttribute = CheckedAttribute(_distance)
+    max_range: NumberAttribute = CheckedAttribute(_distance)
+
+    def __init__(
+        self,
+        elevations: ArrayLike,
+        azimuths: ArrayLike,
+        *,
+        times: ArrayLike | None = None,
+        duration: float = 0.1,
+        min_range: float = 0.0,
+        max_range: float = math.inf,
+    ) -> None:
+        rows = angles(elevations, "elevations")
+        rows = rows[:, np.newaxis] if rows.ndim == 1 else rows
+        given: list[Any] = [rows, angles(azimuths, "azimuths")]
+        given.append(floats(0.0 if times is None else times, "times"))
+        try:
+            shape = np.broadcast_shapes(*(one.shape for one in given))
+        except ValueError:
+            shape = ()
+        if len(shape) != 2 or not 0 < math.prod(shape) <= _MOST_BEAMS:
+            raise InvalidArgumentError(
+                "elevations, azimuths and times must be (rings,) or (rings, columns), (columns,) "
+                "or (rings, columns), at most 2**24 beams"
+            )
+        self._elevations, self._azimuths, self._times = (
+            frozen(np.array(np.broadcast_to(one, shape), np.float64)) for one in given
+        )
+        for name, values in (("elevations", self._elevations), ("azimuths", self._azimuths)):
+            if not np.isfinite(values).all():
+                raise InvalidArgumentError(f"{name} must be finite")
+        if not (np.isfinite(self._times).all() and (self._times >= 0.0).all()):
+            raise InvalidArgumentError("times must be finite, and 0 or more")
+        self.duration = duration
+        self.min_range, self.max_range = min_range, max_range
+
+    @classmethod
+    @checks_types
+    def of(cls, name: str) -> Lidar:
+        """Return the LiDAR of a common sensor, with its nominal angles, at 10 turns a second.
+
+        Parameters
+        ----------
+        name : str
+            One of `LIDARS`, such as ``"vlp-16"`` or ``"os1-128"``.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        pattern = PATTERNS[choose(name, PATTERNS, "name")]
+        return cls.spinning(
+            np.array(pattern.elevations) * (math.pi / 180.0),
+            pattern.steps,
+            rate=pattern.rate,
+            offsets=np.array(pattern.offsets or 0.0) * (-math.pi / 180.0),
+            min_range=pattern.least,
+            max_range=pattern.most,
+        )
+
+    @classmethod
+    @checks_types
+    def spinning(
+        cls,
+        elevations: ArrayLike,
+        steps: int = 1024,
+        *,
+        rate: float = 10.0,
+        offsets: ArrayLike = 0.0,
+        min_range: float = 0.0,
+        max_range: float = math.inf,
+    ) -> Lidar:
+        """Return a LiDAR that turns once around its axis, clockwise as seen from above.
+
+        A scan begins and ends at the back, so that its picture shows what is in front in the
+        middle, and what is to the left on the left.
+
+        Parameters
+        ----------
+        elevations : (rings,) float
+            Radians, a beam each.
+        steps : int
+            Columns.
+        rate : float
+            Turns a second.
+        offsets : float or (rings,) float
+            Radians by which the beams look to the left of their column.
+        min_range, max_range : float
+            As of `Lidar`.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        count, duration = whole_number(steps, "steps", 1, _MOST_BEAMS), 1.0 / positive(rate, "rate")
+        columns = np.arange(count) / count
+        azimuths = math.pi - (2.0 * math.pi) * (columns + 0.5 / count)
+        sideways = angles(offsets, "offsets")
+        if sideways.ndim > 1:
+            raise InvalidArgumentError("offsets must be a number, or one for each beam")
+        return cls(
+            elevations,
+            azimuths + (sideways[:, np.newaxis] if sideways.ndim else sideways),
+            times=columns * duration,
+            duration=duration,
+            min_range=min_range,
+            max_range=max_range,
+        )
+
+    @classmethod
+    @checks_types
+    def raster(
+        cls,
+        size: tuple[int, int],
+        fov: tuple[float, float],
+        *,
+        duration: float = 0.1,
+        min_range: float = 0.0,
+        max_range: float = math.inf,
+    ) -> Lidar:
+        """Return a solid-state LiDAR, which scans a rectangle in equal angles, row after row.
+
+        Parameters
+        ----------
+        size : (int, int)
+            Columns and rows of beams.
+        fov : (float, float)
+            Radians across and down that the outermost beams are apart.
+        duration : float
+            Seconds of a scan.
+        min_range, max_range : float
+            As of `Lidar`.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        columns, rows = (whole_number(one, "size", 1, _MOST_BEAMS) for one in size)
+        across, down = (positive(one, "fov") for one in fov)
+        ends = np.linspace(0.5, -0.5, columns) if columns > 1 else np.zeros(1)
+        heights = np.linspace(-0.5, 0.5, rows) if rows > 1 else np.zeros(1)
+        order = np.arange(rows)[::-1, np.newaxis] * columns + np.arange(columns)
+        return cls(
+            heights * down,
+            ends * across,
+            times=order * (duration / (rows * columns)),
+            duration=duration,
+            min_range=min_range,
+            max_range=max_range,
+        )
+
+    @property
+    def elevations(self) -> NDArray[np.float64]:
+        return self._elevations
+
+    @property
+    def azimuths(self) -> NDArray[np.float64]:
+        return self._azimuths
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        return self._times
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        rings, columns = self._elevations.shape
+        return rings, columns
+
+    @property
+    def directions(self) -> NDArray[np.float64]:
+        level, up = linalg.cos(self._elevations), linalg.sin(self._elevations)
+        forward, left = linalg.cos(self._azimuths), linalg.sin(self._azimuths)
+        return np.stack([level * forward, level * left, up], axis=-1)
+
+    @checks_types
+    def scan(
+        self,
+        scene: Scene,
+        pose: ArrayLike,
+        *,
+        end_pose: ArrayLike | None = None,
+        dropout: float = 0.0,
+        seed: int = 0,
+    ) -> LidarScan:
+        """Measure a scene.
+
+        Parameters
+        ----------
+        scene : Scene
+            As it is now: it stands still during the scan. Rays meet the faces of visible meshes,
+            from both sides; lines, points and transparency do not count.
+        pose : (4, 4) float
+            World-from-sensor, as of a camera: the sensor looks along the node's -Z with +Y up, as
+            `look_at` makes it. Not scaled.
+        end_pose : (4, 4) float, optional
+            Where the sensor is at the end of the scan: between, it moves straight and turns evenly,
+            and each beam starts where the sensor is at its time.
+        dropout : float
+            The share of returns that are lost, from 0 to 1, at random.
+        seed : int
+            Of what is lost: the same seed loses the same beams.
+
+        Returns
+        -------
+        LidarScan
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        rays = self.directions.reshape(-1, 3)
+        share = np.minimum(self._times.reshape(-1) / self.duration, 1.0)
+        start = _rigid(pose, "pose")
+        origins, poses = _moving(
+            start, start if end_pose is None else _rigid(end_pose, "end_pose")
+        )(share)
+        directions = linalg.dot(poses, rays[:, np.newaxis, :])
+        hits = scene.raycast_many(origins, directions, max_distance=self.max_range)
+        kept = (hits.object_id >= 0) & (hits.distance >= self.min_range)
+        kept &= _kept_by_chance(len(rays), fraction(dropout, "dropout"), seed)
+        return self._returns(scene, hits, directions, np.flatnonzero(kept))
+
+    def _returns(
+        self,
+        scene: Scene,
+        hits: RayHits,
+        directions: NDArray[np.float64],
+        kept: NDArray[np.intp],
+    ) -> LidarScan:
+        """Return the scan of the rays that give a return, in the order of time, then ring."""
+        rings, columns = (one.astype(np.int32) for one in np.divmod(kept, self.shape[1]))
+        times = self._times.reshape(-1)[kept]
+        order = np.lexsort((rings, times))
+        kept, rings, columns, times = kept[order], rings[order], columns[order], times[order]
+        chosen: Any = [part[kept] for part in hits]
+        met = RayHits(*chosen)
+        incidence = np.abs(linalg.dot(met.normal, linalg.normalize(directions[kept])))
+        sensor = self.directions.reshape(-1, 3)[kept] * met.distance[:, np.newaxis]
+        return LidarScan(
+            shape=self.shape,
+            points=sensor.astype(np.float32),
+            world_points=met.position,
+            range=met.distance.astype(np.float32),
+            intensity=(reflectances_of(scene, met) * incidence).astype(np.float32),
+            incidence=incidence.astype(np.float32),
+            normal=met.normal.astype(np.float32),
+            ring=rings,
+            column=columns,
+            time=times.astype(np.float32),
+            object_id=met.object_id,
+            instance_id=met.instance_id,
+            face_id=met.face_id,
+        )
+
+    def __repr__(self) -> str:
+        return f"<Lidar {self.shape[0]} rings x {self.shape[1]} columns>"
+
+
+def _rigid(pose: ArrayLike, what: str) -> NDArray[np.float64]:
+    """Return world-from-sensor, in the sensor's own axes, of a pose that only turns and moves."""
+    matrix = matrix4(pose, what)
+    axes = matrix[:3, :3]
+    turned = float(linalg.dot(linalg.cross(axes[:, 0], axes[:, 1]), axes[:, 2]))
+    if np.abs(linalg.length(axes.T) - 1.0).max() > _ROUNDING or abs(turned - 1.0) > 4 * _ROUNDING:
+        raise InvalidArgumentError(f"{what} is scaled or mirrored: a sensor only turns and moves")
+    return linalg.multiply(matrix, _NODE_FROM_SENSOR)
+
+
+def _moving(start: NDArray[np.float64], end: NDArray[np.float64]) -> Any:
+    """Return a function from shares of a motion, (N,), to origins (N, 3) and rotations."""
+    ways = turns(*(linalg.matrix_to_quaternion(one)[np.newaxis] for one in (start, end)))
+
+    def at(shares: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        if np.array_equal(start, end):
+            return start[:3, 3], start[:3, :3]
+        moments, rows = np.unique(shares, return_inverse=True)
+        quaternions = ways.rows(np.zeros(len(moments), np.intp)).at(moments)
+        places = straight(start[np.newaxis, :3, 3], end[np.newaxis, :3, 3], moments)
+        return places[rows], linalg.quaternion_to_matrix(quaternions)[rows, :3, :3]
+
+    return at
+
+
+def _kept_by_chance(count: int, dropout: float, seed: int) -> NDArray[np.bool_]:
+    """Return which of so many beams are not lost."""
+    if dropout == 0.0:
+        return np.ones(count, bool)
+    number = whole_number(seed, "seed", 0, 2**63 - 1)
+    words = np.asarray(np.random.Philox(key=number).random_raw(count), np.uint64)
+    return (words >> np.uint64(11)) * _ULP >= dropout

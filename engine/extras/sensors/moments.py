@@ -1,0 +1,164 @@
+"""Moments: what a frame shows, and where everything is at that time.
+
+In: a frame with identities, and its scene as it was drawn. Out: a `Moment`, which keeps poses, bent
+vertices and the camera while the scene moves on. Two of them give optical flow: each pixel's
+triangle is posed as it is at both moments, and the pixel's barycentric coordinates are taken of
+both. In float64 by R182 to R184, rounded once: the same bits everywhere.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..._native.scene_graph import NativeSeen, seen_again, seen_points
+from ...base import linalg
+from ...base.calls import checks_types
+from ...base.validation import Closed
+from ...errors import MissingOutputError
+from ...model.environments.environment import Environment
+from ...model.scene.scene import Scene
+from ...rendering.frame import Frame, Output, view_of
+from .flow import Flow
+from .things import as_seen, known_to_both, things_of
+
+#: The outputs that a frame of a `Moment` must hold.
+MOMENT_OUTPUTS: tuple[Output, ...] = ("object_id", "instance_id", "face_id", "barycentric")
+
+
+class Moment(Closed):
+    """What a frame shows, and where everything in its scene was when it was drawn.
+
+    Make one of each frame before the scene moves on. Poses and bent vertices are kept.
+
+    Parameters
+    ----------
+    frame : Frame
+        Holds at least the outputs `MOMENT_OUTPUTS`: object_id, instance_id, face_id, barycentric.
+        It must not be drawn into again (``out=``).
+    scene : Scene
+        The frame's, as it was drawn.
+
+    Attributes
+    ----------
+    frame : Frame
+
+    Raises
+    ------
+    MissingOutputError
+        The frame lacks one of these outputs.
+    InvalidArgumentError
+        The frame was not drawn by a `Renderer`.
+    """
+
+    @checks_types
+    def __init__(self, frame: Frame, scene: Scene) -> None:
+        missing = [name for name in MOMENT_OUTPUTS if name not in frame.outputs]
+        if missing:
+            raise MissingOutputError(
+                f"this frame has no {', '.join(missing)}: a Moment needs "
+                "render(..., outputs=(..., *MOMENT_OUTPUTS))"
+            )
+        self._frame, self._view = frame, view_of(frame)
+        self._sky = isinstance(scene.background, Environment)
+        self._things = things_of(scene)
+
+    @property
+    def frame(self) -> Frame:
+        return self._frame
+
+    @checks_types
+    def flow_to(self, other: Moment) -> Flow:
+        """Return where what each pixel shows is in the picture of another moment.
+
+        ``before.flow_to(now)`` is the forward flow of the picture before, and
+        ``now.flow_to(before)`` the backward flow of the picture now. The other picture may be
+        another camera's, of another size: the other eye's of a stereo pair, for example.
+
+        Parameters
+        ----------
+        other : Moment
+            Of the same scene.
+
+        Returns
+        -------
+        Flow
+        """
+        ids = known_to_both(self._things, other._things)
+        here, there = self._in_view_of(self, ids), self._in_view_of(other, ids)
+        sky = self._add_sky(other, here, there)
+        begin, end = self._view.places(here), other._view.places(there)
+        vectors = end - begin
+        known = np.isfinite(vectors[:, 0]) & np.isfinite(vectors[:, 1])
+        at = _pixels_at(end, known, other._frame)
+        visible = self._shows_again(other, there, at)
+        visible[sky] = at[sky] >= 0
+        visible[sky] &= other._frame.object_id.reshape(-1)[at[sky]] < 0
+        vectors[~known] = 0.0
+        shape = self._frame.height, self._frame.width
+        return Flow(
+            vectors.astype(np.float32).reshape(*shape, 2),
+            known.reshape(shape),
+            visible.reshape(shape),
+        )
+
+    def _seen(self) -> NativeSeen:
+        """Return what each pixel shows."""
+        frame = self._frame
+        return NativeSeen(
+            frame.object_id.reshape(-1),
+            frame.instance_id.reshape(-1),
+            frame.face_id.reshape(-1),
+            frame.barycentric.reshape(-1, 3),
+        )
+
+    def _in_view_of(self, other: Moment, ids: list[int]) -> NDArray[np.float64]:
+        """Return where what the pixels show is for another moment's camera, (N, 3); or NaN."""
+        points = np.empty((self._frame.width * self._frame.height, 3))
+        things = as_seen(other._things, ids, other._view.view_from_world)
+        seen_points(self._seen(), things, points, 0)
+        return points
+
+    def _add_sky(
+        self, other: Moment, here: NDArray[np.float64], there: NDArray[np.float64]
+    ) -> NDArray[np.intp]:
+        """Put the directions of an environment behind everything in both; return its pixels."""
+        in_perspective = self._view.eye[3] == other._view.eye[3] == 1.0
+        if not (self._sky and other._sky and in_perspective):
+            return np.empty(0, np.intp)
+        sky = np.flatnonzero(self._frame.object_id.reshape(-1) < 0)
+        rows, columns = np.divmod(sky, self._frame.width)
+        centres = np.stack([columns + 0.5, rows + 0.5], axis=1)
+        here[sky] = self._view.directions(centres)
+        world_from_here = linalg.inverse(self._view.view_from_world)
+        turn = linalg.multiply(other._view.view_from_world, world_from_here)
+        there[sky] = linalg.transform_directions(turn, here[sky])
+        return sky
+
+    def _shows_again(
+        self, other: Moment, points: NDArray[np.float64], at: NDArray[np.int32]
+    ) -> NDArray[np.bool_]:
+        """Return which of the points the other picture shows at the pixels that they lie in."""
+        visible = np.empty(len(points), np.bool_)
+        view = other._view
+        things = as_seen(other._things, other._things, view.view_from_world)
+        is_near = view.eye[3] == 1.0
+        width = other._frame.width
+        marks = visible.view(np.uint8)
+        seen_again(self._seen(), other._seen(), things, points, at, width, is_near, marks, 0)
+        return visible
+
+    def __repr__(self) -> str:
+        return f"<Moment {self._frame.width}x{self._frame.height}: {len(self._things)} things>"
+
+
+def _pixels_at(
+    places: NDArray[np.float64], known: NDArray[np.bool_], frame: Frame
+) -> NDArray[np.int32]:
+    """Return the pixels of a frame that places (N, 2) lie in, -1 for none."""
+    x, y = places.T
+    with np.errstate(invalid="ignore"):
+        inside = known & (x >= 0.0) & (x < frame.width) & (y >= 0.0) & (y < frame.height)
+    at = np.full(len(places), -1, np.int32)
+    at[inside] = y[inside].astype(np.int32) * frame.width + x[inside].astype(np.int32)
+    return at

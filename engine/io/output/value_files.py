@@ -180,5 +180,13 @@ _ENCODERS: dict[str, Callable[[NDArray[np.generic], Mask], bytes]] = {
     "flo": _flo,
     "png": _png,
 }
-#: What `save_values` writes.
-VALUE_SUFFIXES = tuple(_ENCODERS)
+#: How each format marks what is not valid, in words for people who read such files.
+MARKS = {
+    "npy": "NaN where not valid.",
+    "npz": "Arrays values and valid.",
+    "pfm": "Infinite where not valid; rows from the bottom up; of flow, the third channel is 0.",
+    "exr": "NaN where not valid.",
+    "flo": "1e10 where not valid (Middlebury).",
+    "png": "16 bits as KITTI: one channel holds 256 times the value, 0 where not valid; flow holds "
+    "64 times the value + 32768, and 1 where valid in blue. Masks are black and white.",
+}

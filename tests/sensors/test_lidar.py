@@ -206,7 +206,7 @@ def test_open3d_reads_the_clouds(tmp_path):
         (lambda: Lidar.spinning([0.0], 0), "steps"),
         (lambda: Lidar.spinning([0.0], offsets=[[0.0]]), "offsets"),
         (lambda: Lidar.spinning([0.0, 0.1], offsets=[0.0, 0.1, 0.2]), "rings"),
-        (lambda: Lidar.raster((0, 4), (1.0, 1.0)), "size"),
+        (lambda: Lidar.raster((0, 4), (1.0, 1.0)), "width"),
         (lambda: Lidar.raster((4, 4), (1.0, 0.0)), "fov"),
         (lambda: Lidar([0.0], [0.0]).scan(e3d.Scene(), np.diag([2, 2, 2, 1])), "scaled"),
         (lambda: Lidar([0.0], [0.0]).scan(e3d.Scene(), np.diag([-1, 1, 1, 1])), "mirrored"),

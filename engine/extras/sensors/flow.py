@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base import linalg
 from ...base.calls import checks_types
+from ...base.numbers import as_array
 from ...base.validation import optional_positive
 from ...errors import InvalidArgumentError
 from ...io.output.value_files import save_values
@@ -102,7 +103,7 @@ class Flow:
         ------
         InvalidArgumentError
         """
-        other = np.asarray(picture)
+        other = as_array(picture, "picture")
         if other.ndim not in (2, 3) or 0 in other.shape or other.dtype.kind not in "buif":
             raise InvalidArgumentError("picture must be (H, W) or (H, W, channels) numbers")
         rows, columns = np.indices(self.known.shape)

@@ -17,7 +17,8 @@ from ..._native.loaders import frozen
 from ...base import linalg
 from ...base.angles import angles
 from ...base.calls import checks_types
-from ...base.numbers import floats, shown
+from ...base.image_size import check_size
+from ...base.numbers import floats, real, shown
 from ...base.validation import (
     CheckedAttribute,
     Closed,
@@ -46,7 +47,7 @@ _ULP = 2.0**-53
 
 
 def _distance(value: float, what: str) -> float:
-    number = float(floats(value, what))
+    number = real(value)
     if not number >= 0.0:
         raise InvalidArgumentError(f"{what} must be 0 or more, not {shown(value)}")
     return number
@@ -222,16 +223,19 @@ class Lidar(Closed):
         ------
         InvalidArgumentError
         """
-        columns, rows = (whole_number(one, "size", 1, _MOST_BEAMS) for one in size)
-        across, down = (positive(one, "fov") for one in fov)
+        (columns, rows), spread = check_size(size), floats(fov, "fov")
+        if spread.shape != (2,):
+            raise InvalidArgumentError(f"fov must be two angles, not {shown(fov)}")
+        across, down = (positive(one, "fov") for one in spread.tolist())
+        whole = positive(duration, "duration")
         ends = np.linspace(0.5, -0.5, columns) if columns > 1 else np.zeros(1)
         heights = np.linspace(-0.5, 0.5, rows) if rows > 1 else np.zeros(1)
         order = np.arange(rows)[::-1, np.newaxis] * columns + np.arange(columns)
         return cls(
             heights * down,
             ends * across,
-            times=order * (duration / (rows * columns)),
-            duration=duration,
+            times=order * (whole / (rows * columns)),
+            duration=whole,
             min_range=min_range,
             max_range=max_range,
         )

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base import linalg
 from ...base.calls import checks_types
+from ...base.numbers import floats
 from ...base.validation import CheckedAttribute, Closed, NumberAttribute, matrix4, positive
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import Camera
@@ -115,7 +116,7 @@ class StereoCamera(Closed):
         InvalidArgumentError
             The camera has no perspective.
         """
-        depths = np.asarray(depth, np.float64)
+        depths = floats(depth, "depth")
         focal = self._focal_length(size)
         with np.errstate(divide="ignore", invalid="ignore"):
             pixels = np.where(depths > 0.0, focal * self.baseline / depths, 0.0)

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...base.calls import checks_types
 from ...base.files.atomic_write import atomic_write, checked_path
 from ...base.files.png import encode_pixels
+from ...base.numbers import as_array
 from ...base.validation import choose
 from ...errors import InvalidArgumentError, warn
 from .exr_writer import encode_exr
@@ -79,12 +80,12 @@ def save_values(
 def encode_values(values: ArrayLike, suffix: str, *, valid: ArrayLike | None = None) -> bytes:
     """Return the bytes of a file, as for `save_values`; the suffix is without a dot."""
     choose(suffix, _ENCODERS, "the suffix of numbers per pixel")
-    array = np.asarray(values)
+    array = as_array(values, "values")
     if array.ndim not in (2, 3) or 0 in array.shape or array.dtype.kind not in "buif":
         raise InvalidArgumentError(
             f"values must be (H, W) or (H, W, channels) numbers, not {array.shape} {array.dtype}"
         )
-    mask = np.ones(array.shape[:2], bool) if valid is None else np.asarray(valid)
+    mask = np.ones(array.shape[:2], bool) if valid is None else as_array(valid, "valid")
     if mask.shape != array.shape[:2] or mask.dtype != np.bool_:
         raise InvalidArgumentError(
             f"valid must be {array.shape[:2]} bool, not {mask.shape} {mask.dtype}"

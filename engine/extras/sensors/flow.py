@@ -68,15 +68,15 @@ class Flow:
         Notes
         -----
         The wheel of Baker et al., "A database and evaluation methodology for optical flow" (2011),
-        of the Middlebury benchmark.
+        of the Middlebury benchmark; here it is closed, so that motion to the right has no seam.
         """
         u, v = self.vectors.astype(np.float64).reshape(-1, 2).T
         lengths = np.sqrt(u * u + v * v)
         most = optional_positive(largest, "largest") or lengths.max(initial=0.0) or 1.0
         share = np.minimum(lengths / most, 1.0)[:, np.newaxis]
         wheel = _wheel()
-        turns = (linalg.atan2(-v, -u) / math.pi + 1.0) * (0.5 * (len(wheel) - 1))
-        turns = np.where(turns >= len(wheel) - 1, 0.0, turns)  # to the right, from below
+        turns = (linalg.atan2(-v, -u) / math.pi + 1.0) * (0.5 * len(wheel))
+        turns = np.where(turns >= len(wheel), 0.0, turns)  # to the right
         low = turns.astype(np.intp)
         rest = (turns - low)[:, np.newaxis]
         hue = wheel[low] * (1.0 - rest) + wheel[(low + 1) % len(wheel)] * rest

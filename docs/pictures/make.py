@@ -391,7 +391,7 @@ def sensors() -> np.ndarray:
     scene.add(e3d.plane(30.0), name="floor")
     add_daylight(scene)
     lens, pose = look((-2.0, 4.5, 13.0), (0.0, 2.2, 0.0), 0.7)
-    outputs = ("color", "depth", *e3d.sensors.MOMENT_OUTPUTS)
+    outputs = ("color", "depth", *e3d.sensors.Moment.OUTPUTS)
     with e3d.Renderer(size, look="plain", samples=4, antialiasing="msaa") as renderer:
         options = {"outputs": outputs, "cull": "back"}
         pair = e3d.sensors.StereoCamera(lens, 0.6).render(renderer, scene, pose, **options)

@@ -8,7 +8,7 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.datasets import BopWriter, CocoWriter, FolderWriter, Sample, write_dataset
-from engine3d.sensors import MOMENT_OUTPUTS, Moment, StereoCamera
+from engine3d.sensors import Moment, StereoCamera
 
 SIZE = 64, 48
 LENS = e3d.PerspectiveCamera(0.8, znear=0.2, zfar=30.0)
@@ -40,7 +40,7 @@ def sample(renderer, writer, **moves):
 def moment(renderer, time):
     moving = Moving()
     frame = renderer.render(
-        moving.scene, moving.at(time), outputs=("color", "depth", *MOMENT_OUTPUTS)
+        moving.scene, moving.at(time), outputs=("color", "depth", *Moment.OUTPUTS)
     )
     return Moment(frame, moving.scene)
 

@@ -104,7 +104,7 @@ def window():
 
 @functools.cache
 def frame():
-    every = ("color", "depth", "ndc_depth", *e3d.sensors.MOMENT_OUTPUTS)
+    every = ("color", "depth", "ndc_depth", *e3d.sensors.Moment.OUTPUTS)
     return draw(outputs=every)
 
 

@@ -51,7 +51,7 @@ POSE = np.eye(4)
 
 
 def moment():
-    scene, outputs = drawn(), e3d.sensors.MOMENT_OUTPUTS
+    scene, outputs = drawn(), e3d.sensors.Moment.OUTPUTS
     return e3d.sensors.Moment(e3d.Renderer((4, 4)).render(scene, outputs=outputs), scene)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 import engine3d as e3d
 from engine3d.model.scene.instances import instance_matrices
-from engine3d.sensors import MOMENT_OUTPUTS, Moment
+from engine3d.sensors import Moment
 
 SIZE = 120, 90
 LENS = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=60.0)
@@ -102,7 +102,7 @@ def moment(moving, time, *, renderer=None, view=None, outputs=()):
     """The moment of a time."""
     moving.at(time)
     renderer = renderer or e3d.Renderer(SIZE, samples=1)
-    outputs = (*MOMENT_OUTPUTS, *outputs)
+    outputs = (*Moment.OUTPUTS, *outputs)
     frame = renderer.render(moving.scene, view or view_at(time), outputs=outputs)
     return Moment(frame, moving.scene)
 

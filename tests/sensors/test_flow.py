@@ -7,7 +7,7 @@ import pytest
 from sensors.moving_scene import LENS, SIZE, MovingScene, moment, points_of, project, view_at
 
 import engine3d as e3d
-from engine3d.sensors import MOMENT_OUTPUTS, Flow, Moment
+from engine3d.sensors import Flow, Moment
 
 STILL = (LENS, e3d.look_at((0, 1, 5), (0, 0, 0)))
 
@@ -76,7 +76,7 @@ def test_a_turning_camera_gives_a_homography():
     turn = e3d.linalg.rotation_y(0.1) @ e3d.linalg.rotation_x(0.05)
     with e3d.Renderer(SIZE) as renderer:
         a, b = (
-            Moment(renderer.render(scene, (lens, pose), outputs=MOMENT_OUTPUTS), scene)
+            Moment(renderer.render(scene, (lens, pose), outputs=Moment.OUTPUTS), scene)
             for pose in (np.eye(4), turn)
         )
     flow = a.flow_to(b)
@@ -106,7 +106,7 @@ def test_the_other_picture_warped_is_this_picture():
         for time in (0.0, 1.0):
             thing.translation = (-0.2 * time, 0.1 * time, 1.0)
             pose = e3d.look_at((0.3 * time, 0, 6), (0.3 * time, 0, 0))
-            frame = renderer.render(scene, (LENS, pose), outputs=("color", *MOMENT_OUTPUTS))
+            frame = renderer.render(scene, (LENS, pose), outputs=("color", *Moment.OUTPUTS))
             frames.append(frame.color[..., :3].astype(float))
             moments.append(Moment(frame, scene))
     flow = moments[0].flow_to(moments[1])
@@ -191,7 +191,7 @@ def test_a_new_mesh_with_the_same_faces_is_the_same_thing():
         for place in (0.0, 0.1):
             node.object = e3d.box()
             node.translation = (place, 0, 0)
-            frame = renderer.render(scene, STILL, outputs=MOMENT_OUTPUTS)
+            frame = renderer.render(scene, STILL, outputs=Moment.OUTPUTS)
             moments.append(Moment(frame, scene))
     flow = moments[0].flow_to(moments[1])
     assert flow.known.any() and (flow.vectors[flow.known][:, 0] > 1).all()
@@ -200,7 +200,7 @@ def test_a_new_mesh_with_the_same_faces_is_the_same_thing():
 def test_lines_and_points_have_no_flow():
     scene = e3d.Scene()
     scene.add(e3d.Mesh([(-1, 0, 0), (1, 0, 0), (0, 1, 0)], lines=[(0, 1)], points=[2]))
-    frame = e3d.Renderer(SIZE).render(scene, STILL, outputs=MOMENT_OUTPUTS)
+    frame = e3d.Renderer(SIZE).render(scene, STILL, outputs=Moment.OUTPUTS)
     one = Moment(frame, scene)
     assert (frame.object_id >= 0).any() and not one.flow_to(one).known.any()
 
@@ -216,7 +216,7 @@ def test_one_surface_bent_either_way_hides_nothing_of_itself():
         a, b = (
             Moment(
                 renderer.render(
-                    scene, (LENS, e3d.look_at((x, 0.1, 3), (0, 0, 0))), outputs=MOMENT_OUTPUTS
+                    scene, (LENS, e3d.look_at((x, 0.1, 3), (0, 0, 0))), outputs=Moment.OUTPUTS
                 ),
                 scene,
             )
@@ -235,7 +235,7 @@ def test_moments_say_what_is_missing():
         Moment(frame, scene)
     with pytest.raises(e3d.InvalidArgumentError, match="scene"):
         Moment(frame, "scene")
-    whole = e3d.Renderer(SIZE).render(scene, STILL, outputs=MOMENT_OUTPUTS)
+    whole = e3d.Renderer(SIZE).render(scene, STILL, outputs=Moment.OUTPUTS)
     with pytest.raises(e3d.InvalidArgumentError, match="other"):
         Moment(whole, scene).flow_to(whole)
     with pytest.raises(e3d.InvalidArgumentError, match="not drawn by a Renderer"):

@@ -7,7 +7,7 @@ import pytest
 from sensors.moving_scene import MovingScene
 
 import engine3d as e3d
-from engine3d.sensors import LIDARS, Lidar
+from engine3d.sensors import Lidar
 
 HERE = e3d.look_at((0, 0, 0), (0, 0, -1))
 
@@ -103,7 +103,7 @@ def test_the_raster_scans_a_rectangle_from_the_top_left():
     assert Lidar.raster((1, 1), (1.0, 1.0)).directions.ravel().tolist() == [1.0, 0.0, 0.0]
 
 
-@pytest.mark.parametrize("name", LIDARS)
+@pytest.mark.parametrize("name", Lidar.NAMES)
 def test_patterns_have_what_their_names_say(name):
     lidar = Lidar.of(name)
     beams = {"vlp-16": 16, "vlp-32c": 32, "hdl-32e": 32, "hdl-64e": 64}.get(name)

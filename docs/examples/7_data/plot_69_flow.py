@@ -15,7 +15,7 @@ import numpy as np
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.sensors import MOMENT_OUTPUTS, Moment
+from engine3d.sensors import Moment
 
 scene = e3d.Scene(background="lightsteelblue")
 scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.7)))
@@ -23,7 +23,7 @@ scene.add(e3d.plane(16.0), translation=(0.0, -0.01, 0.0))
 teapot = scene.add(e3d.load_mesh(files("engine3d.data") / "models" / "teapot.obj"))
 lens, pose = e3d.PerspectiveCamera(0.7), e3d.look_at((3.0, 5.0, 9.0), (0.0, 1.0, 0.0))
 
-outputs = ("color", *MOMENT_OUTPUTS)
+outputs = ("color", *Moment.OUTPUTS)
 with e3d.Renderer((400, 300)) as renderer:
     first = Moment(renderer.render(scene, (lens, pose), outputs=outputs), scene)
     teapot.rotation = e3d.linalg.euler_to_quaternion((0.0, 0.25, 0.0))

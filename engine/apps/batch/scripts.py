@@ -48,6 +48,9 @@ class Said(NamedTuple):
     previous: Callable[[], Any] | None = None
 
 
+_SAID = tuple(Said.__annotations__)
+
+
 class Loaded(NamedTuple):
     """A script that has been run.
 
@@ -159,8 +162,8 @@ def _said(result: Any) -> Said:
     if not isinstance(result, Mapping):
         raise InvalidArgumentError(f"must be None or a dict, not {shown(result)}")
     for key in result:
-        if key not in Said._fields:
-            raise InvalidArgumentError(f"{shown(key)} is none of {', '.join(Said._fields)}")
+        if key not in _SAID:
+            raise InvalidArgumentError(f"{shown(key)} is none of {', '.join(_SAID)}")
     labels, files = result.get("labels"), result.get("files", {})
     for name, value in (("labels", labels), ("files", files)):
         if value is not None and not isinstance(value, Mapping):

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...base.numbers import shown
 from ...base.validation import choose
 from ...errors import InvalidArgumentError
-from ...extras.sensors.moments import MOMENT_OUTPUTS, Moment
+from ...extras.sensors.moments import Moment
 from ...extras.sensors.stereo import StereoCamera, stereo_pair
 from ...io.output.value_files import MARKS, encode_values
 from ...rendering.frame import OUTPUTS, Frame, Output
@@ -118,7 +118,7 @@ def frame_outputs(written: Sequence[str]) -> tuple[Output, ...]:
             names.append(name)
         else:
             names += ["depth"] if _MEASURED[name].needs == "right" else []
-            names += MOMENT_OUTPUTS
+            names += Moment.OUTPUTS
     return cast("tuple[Output, ...]", tuple(dict.fromkeys(names)))
 
 
@@ -216,5 +216,5 @@ def _flow(
 
 def _drawn(sample: Sample, camera: Any, outputs: tuple[Output, ...]) -> Moment:
     """Draw the sample's scene as it is now, as the sample was drawn."""
-    options = replace(sample.options, outputs=(*outputs, *MOMENT_OUTPUTS))
+    options = replace(sample.options, outputs=(*outputs, *Moment.OUTPUTS))
     return Moment(sample.renderer.render(sample.scene, camera, options=options), sample.scene)

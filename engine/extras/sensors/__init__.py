@@ -7,14 +7,11 @@ rectified pairs with disparities; `Lidar` measures distances along beams.
 from ...io.output.value_files import save_values
 from .flow import Flow
 from .lidar import Lidar
-from .lidar_patterns import LIDARS
-from .moments import MOMENT_OUTPUTS, Moment
+from .moments import Moment
 from .scans import LidarScan
 from .stereo import StereoCamera, StereoPair
 
 __all__ = [
-    "LIDARS",
-    "MOMENT_OUTPUTS",
     "Flow",
     "Lidar",
     "LidarScan",

@@ -8,7 +8,7 @@ ray of the scene's own ray casting, in float64, so that IDs and distances are ex
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -73,6 +73,8 @@ class Lidar(Closed):
 
     Attributes
     ----------
+    NAMES : tuple of str
+        Of the sensors that `Lidar.of` knows.
     elevations, azimuths, times : (rings, columns) float64, read-only
     shape : (int, int)
         Rings and columns.
@@ -84,6 +86,7 @@ class Lidar(Closed):
     InvalidArgumentError
     """
 
+    NAMES: ClassVar[tuple[str, ...]] = tuple(PATTERNS)
     duration: NumberAttribute = CheckedAttribute(positive)
     min_range: NumberAttribute = CheckedAttribute(_distance)
     max_range: NumberAttribute = CheckedAttribute(_distance)
@@ -130,7 +133,7 @@ class Lidar(Closed):
         Parameters
         ----------
         name : str
-            One of `LIDARS`, such as ``"vlp-16"`` or ``"os1-128"``.
+            One of `Lidar.NAMES`, such as ``"vlp-16"`` or ``"os1-128"``.
 
         Raises
         ------

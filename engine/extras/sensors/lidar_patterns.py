@@ -72,5 +72,3 @@ PATTERNS = {
     "os2-64": Pattern(_even(-11.25, 11.25, 64), (), 1024, 10.0, 0.8, 350.0),
     "os2-128": Pattern(_even(-11.25, 11.25, 128), (), 1024, 10.0, 0.8, 350.0),
 }  # fmt: skip
-#: The names that `Lidar.of` takes.
-LIDARS = tuple(PATTERNS)

@@ -8,6 +8,8 @@ both. In float64 by R182 to R184, rounded once: the same bits everywhere.
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,9 +24,6 @@ from ...rendering.frame import Frame, Output, view_of
 from .flow import Flow
 from .things import as_seen, known_to_both, things_of
 
-#: The outputs that a frame of a `Moment` must hold.
-MOMENT_OUTPUTS: tuple[Output, ...] = ("object_id", "instance_id", "face_id", "barycentric")
-
 
 class Moment(Closed):
     """What a frame shows, and where everything in its scene was when it was drawn.
@@ -34,13 +33,14 @@ class Moment(Closed):
     Parameters
     ----------
     frame : Frame
-        Holds at least the outputs `MOMENT_OUTPUTS`: object_id, instance_id, face_id, barycentric.
-        It must not be drawn into again (``out=``).
+        Holds at least the outputs `Moment.OUTPUTS`. It must not be drawn into again (``out=``).
     scene : Scene
         The frame's, as it was drawn.
 
     Attributes
     ----------
+    OUTPUTS : tuple of str
+        object_id, instance_id, face_id, barycentric.
     frame : Frame
 
     Raises
@@ -51,13 +51,15 @@ class Moment(Closed):
         The frame was not drawn by a `Renderer`.
     """
 
+    OUTPUTS: ClassVar[tuple[Output, ...]] = "object_id", "instance_id", "face_id", "barycentric"
+
     @checks_types
     def __init__(self, frame: Frame, scene: Scene) -> None:
-        missing = [name for name in MOMENT_OUTPUTS if name not in frame.outputs]
+        missing = [name for name in self.OUTPUTS if name not in frame.outputs]
         if missing:
             raise MissingOutputError(
                 f"this frame has no {', '.join(missing)}: a Moment needs "
-                "render(..., outputs=(..., *MOMENT_OUTPUTS))"
+                "render(..., outputs=(..., *Moment.OUTPUTS))"
             )
         self._frame, self._view = frame, view_of(frame)
         self._sky = isinstance(scene.background, Environment)

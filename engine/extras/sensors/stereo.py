@@ -23,7 +23,7 @@ from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 from ...rendering.options import OptionKeywords, RenderOptions, checked_options
 from ...rendering.renderer import Renderer
-from .moments import MOMENT_OUTPUTS, Moment
+from .moments import Moment
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -142,7 +142,7 @@ class StereoCamera(Closed):
             World-from-camera of the left camera.
         options, **keywords
             As of `Renderer.render`. The frames hold the outputs that they name and, besides, depth
-            and those of `MOMENT_OUTPUTS`.
+            and those of `Moment.OUTPUTS`.
 
         Returns
         -------
@@ -153,7 +153,7 @@ class StereoCamera(Closed):
         InvalidArgumentError, OutOfMemoryError
         """
         chosen = checked_options(options, keywords)
-        outputs = tuple(dict.fromkeys((*chosen.outputs, "depth", *MOMENT_OUTPUTS)))
+        outputs = tuple(dict.fromkeys((*chosen.outputs, "depth", *Moment.OUTPUTS)))
         given: Any = {**vars(chosen), "outputs": outputs}
         self._focal_length(renderer.size)
         poses = matrix4(pose, "pose"), self.right_pose(pose)

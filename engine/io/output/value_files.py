@@ -79,7 +79,7 @@ def save_values(
 
 def encode_values(values: ArrayLike, suffix: str, *, valid: ArrayLike | None = None) -> bytes:
     """Return the bytes of a file, as for `save_values`; the suffix is without a dot."""
-    choose(suffix, _ENCODERS, "the suffix of numbers per pixel")
+    choose(suffix, _FORMATS, "the suffix of numbers per pixel")
     array = as_array(values, "values")
     if array.ndim not in (2, 3) or 0 in array.shape or array.dtype.kind not in "buif":
         raise InvalidArgumentError(
@@ -90,7 +90,8 @@ def encode_values(values: ArrayLike, suffix: str, *, valid: ArrayLike | None = N
         raise InvalidArgumentError(
             f"valid must be {array.shape[:2]} bool, not {mask.shape} {mask.dtype}"
         )
-    return _ENCODERS[suffix](array, mask)
+    encode, _ = _FORMATS[suffix]
+    return encode(array, mask)
 
 
 def channels_of(array: NDArray[np.generic]) -> int:
@@ -173,21 +174,21 @@ def _steps(
     return kept.astype(np.uint16), fits.astype(np.uint16)
 
 
-_ENCODERS: dict[str, Callable[[NDArray[np.generic], Mask], bytes]] = {
-    "npy": _npy,
-    "npz": _npz,
-    "pfm": _pfm,
-    "exr": _exr,
-    "flo": _flo,
-    "png": _png,
+# By suffix: what encodes, and how it marks what is not valid, in words for people.
+_FORMATS: dict[str, tuple[Callable[[NDArray[np.generic], Mask], bytes], str]] = {
+    "npy": (_npy, "NaN where not valid."),
+    "npz": (_npz, "Arrays values and valid."),
+    "pfm": (
+        _pfm,
+        "Infinite where not valid; rows from the bottom up; of flow, the third channel is 0.",
+    ),
+    "exr": (_exr, "NaN where not valid."),
+    "flo": (_flo, "1e10 where not valid (Middlebury)."),
+    "png": (
+        _png,
+        "16 bits as KITTI: one channel holds 256 times the value, 0 where not valid; flow holds "
+        "64 times the value + 32768, and 1 where valid in blue. Masks are black and white.",
+    ),
 }
-#: How each format marks what is not valid, in words for people who read such files.
-MARKS = {
-    "npy": "NaN where not valid.",
-    "npz": "Arrays values and valid.",
-    "pfm": "Infinite where not valid; rows from the bottom up; of flow, the third channel is 0.",
-    "exr": "NaN where not valid.",
-    "flo": "1e10 where not valid (Middlebury).",
-    "png": "16 bits as KITTI: one channel holds 256 times the value, 0 where not valid; flow holds "
-    "64 times the value + 32768, and 1 where valid in blue. Masks are black and white.",
-}
+#: How each format marks what is not valid, by suffix.
+MARKS = {suffix: mark for suffix, (_, mark) in _FORMATS.items()}

@@ -4,6 +4,7 @@ import copy
 
 import numpy as np
 import pytest
+from sensors import flow_rules as rules
 from sensors.moving_scene import LENS, SIZE, MovingScene, moment, points_of, project, view_at
 
 import engine3d as e3d
@@ -46,6 +47,35 @@ def test_flow_is_that_of_each_points_own_triangle(pair, way):
     assert not flow.vectors[~shown].any()
     centres = np.stack(np.meshgrid(*(np.arange(side) + 0.5 for side in SIZE)), axis=-1)
     assert np.abs(places[0] - centres)[shown].max() < 5e-3
+
+
+FLAT = e3d.OrthographicCamera(2.2, znear=0.1, zfar=60.0), e3d.look_at((1, 2, 6), (0, 0, 0))
+
+
+@pytest.mark.parametrize("views", [(0.0, 0.7), (0.7, 0.2), (0.1, FLAT), (FLAT, 0.6)])
+def test_the_core_follows_the_rules_to_the_bit(views):
+    """Everything moves, and is seen by other cameras, one without perspective."""
+    times = [view if isinstance(view, float) else 0.9 for view in views]
+    (lens, pose), (other_lens, other_pose) = (
+        view_at(view) if isinstance(view, float) else view for view in views
+    )
+    moving = MovingScene()
+    first = moment(moving, times[0], view=(lens, pose))
+    here = rules.points(first.frame, rules.corners(first.frame, moving.scene, pose))
+    second = moment(moving, times[1], view=(other_lens, other_pose))
+    own = rules.corners(first.frame, moving.scene, other_pose)
+    other = rules.corners(second.frame, moving.scene, other_pose)
+    there = rules.points(first.frame, own)
+    begin, end = rules.places(lens, SIZE, here), rules.places(other_lens, SIZE, there)
+    known = np.isfinite(end - begin).all(axis=-1)
+    vectors = np.where(known[..., np.newaxis], end - begin, 0).astype(np.float32)
+    flow = first.flow_to(second)
+    assert np.array_equal(flow.known, known)
+    assert np.array_equal(flow.vectors.view(np.uint32), vectors.view(np.uint32))
+    is_near = isinstance(other_lens, e3d.PerspectiveCamera)
+    shows = rules.visible(first.frame, second.frame, own, other, there, end, is_near)
+    assert np.array_equal(flow.visible, shows)
+    assert flow.occluded.any() and shows.any()
 
 
 def test_what_stands_still_has_no_flow():

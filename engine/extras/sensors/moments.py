@@ -87,16 +87,24 @@ class Moment(Closed):
         Flow
         """
         ids = known_to_both(self._things, other._things)
-        here, there = self._in_view_of(self, ids), self._in_view_of(other, ids)
-        sky = self._add_sky(other, here, there)
-        begin, end = self._view.places(here), other._view.places(there)
-        vectors = end - begin
+        sky, directions = self._sky_to(other)
+        # One array after the other: at this size, fresh memory costs more than the arithmetic.
+        points = np.empty((self._frame.width * self._frame.height, 3))
+        self._put_in_view_of(self, ids, points)
+        points[sky] = directions
+        vectors = self._view.places(points)
+        self._put_in_view_of(other, ids, points)
+        turn = linalg.multiply(
+            other._view.view_from_world, linalg.inverse(self._view.view_from_world)
+        )
+        points[sky] = linalg.transform_directions(turn, directions)
+        end = other._view.places(points)
+        np.subtract(end, vectors, out=vectors)
         known = np.isfinite(vectors[:, 0]) & np.isfinite(vectors[:, 1])
         at = _pixels_at(end, known, other._frame)
-        visible = self._shows_again(other, there, at)
-        visible[sky] = at[sky] >= 0
-        visible[sky] &= other._frame.object_id.reshape(-1)[at[sky]] < 0
-        vectors[~known] = 0.0
+        visible = self._shows_again(other, points, at)
+        visible[sky] = (at[sky] >= 0) & (other._frame.object_id.reshape(-1)[at[sky]] < 0)
+        np.copyto(vectors, 0.0, where=~known[:, np.newaxis])
         shape = self._frame.height, self._frame.width
         return Flow(
             vectors.astype(np.float32).reshape(*shape, 2),
@@ -114,28 +122,19 @@ class Moment(Closed):
             frame.barycentric.reshape(-1, 3),
         )
 
-    def _in_view_of(self, other: Moment, ids: list[int]) -> NDArray[np.float64]:
-        """Return where what the pixels show is for another moment's camera, (N, 3); or NaN."""
-        points = np.empty((self._frame.width * self._frame.height, 3))
+    def _put_in_view_of(self, other: Moment, ids: list[int], points: NDArray[np.float64]) -> None:
+        """Write where what the pixels show is for another moment's camera, (N, 3); or NaN."""
         things = as_seen(other._things, ids, other._view.view_from_world)
         seen_points(self._seen(), things, points, 0)
-        return points
 
-    def _add_sky(
-        self, other: Moment, here: NDArray[np.float64], there: NDArray[np.float64]
-    ) -> NDArray[np.intp]:
-        """Put the directions of an environment behind everything in both; return its pixels."""
+    def _sky_to(self, other: Moment) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """Return the pixels of an environment behind everything in both, and their directions."""
         in_perspective = self._view.eye[3] == other._view.eye[3] == 1.0
         if not (self._sky and other._sky and in_perspective):
-            return np.empty(0, np.intp)
+            return np.empty(0, np.intp), np.empty((0, 3))
         sky = np.flatnonzero(self._frame.object_id.reshape(-1) < 0)
         rows, columns = np.divmod(sky, self._frame.width)
-        centres = np.stack([columns + 0.5, rows + 0.5], axis=1)
-        here[sky] = self._view.directions(centres)
-        world_from_here = linalg.inverse(self._view.view_from_world)
-        turn = linalg.multiply(other._view.view_from_world, world_from_here)
-        there[sky] = linalg.transform_directions(turn, here[sky])
-        return sky
+        return sky, self._view.directions(np.stack([columns + 0.5, rows + 0.5], axis=1))
 
     def _shows_again(
         self, other: Moment, points: NDArray[np.float64], at: NDArray[np.int32]

@@ -445,7 +445,7 @@ PICTURES = {
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", "mirrors", "sheet", "city", "impostors", *gallery.programs())
+SMALL = ("models", "mirrors", "sheet", "sensors", "city", "impostors", *gallery.programs())
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 

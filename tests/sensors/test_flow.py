@@ -295,3 +295,42 @@ def test_warp_takes_pictures_of_numbers_only():
     for wrong in (np.zeros(3), "picture", np.zeros((0, 3)), np.zeros((2, 2), complex)):
         with pytest.raises(e3d.InvalidArgumentError, match="picture"):
             flow.warp(wrong)
+
+
+def test_levels_of_detail_are_known_while_they_stay():
+    fine, coarse = e3d.icosphere(0.5, 3), e3d.icosphere(0.5, 1)
+    levels = [(fine, 0.0), (coarse, 0.05)]
+    meshes = e3d.detail.DetailedMeshes([((mesh,), error) for mesh, error in levels])
+    crowd = e3d.detail.DetailedInstances(levels, [(2, 0, 0, 1), (2, 1, -20, 1)])
+    scene = e3d.Scene(ambient=(1, 1, 1))
+    place, many = meshes.add_to(scene).children[0], crowd.add_to(scene)
+    found = []
+    with e3d.Renderer(SIZE) as renderer:
+        for away in (5.0, 5.5, 40.0):
+            pose = e3d.look_at((1, 0, away), (1, 0, 0))
+            meshes.update(LENS, pose, SIZE)
+            crowd.update(LENS, pose, SIZE)
+            frame = renderer.render(scene, (LENS, pose), outputs=Moment.OUTPUTS)
+            found.append(Moment(frame, scene))
+    ids = found[0].frame.object_id
+    assert (ids == place.id).any() and (ids == many.id).any()
+    assert meshes.level[0] == 1  # at last
+    flow = found[0].flow_to(found[1])
+    assert flow.known[ids == place.id].all() and not flow.known[ids == many.id].any()
+    assert not found[0].flow_to(found[2]).known[ids == place.id].any()
+
+
+def test_frames_that_were_written_to_do_no_harm():
+    moving, random = MovingScene(), np.random.default_rng(5)
+    first, second = moment(moving, 0.0), moment(moving, 0.4)
+    for one in (first, second):
+        for name in ("object_id", "instance_id", "face_id"):
+            array = getattr(one.frame, name)
+            places = random.random(array.shape) < 0.3
+            array[places] = random.integers(-(2**31), 2**31, places.sum(), np.int32)
+            places = random.random(array.shape) < 0.3
+            array[places] = random.integers(-2, 9, places.sum(), np.int32)
+        weights = one.frame.barycentric
+        weights[random.random(weights.shape[:2]) < 0.2] = (np.nan, np.inf, 1e38)
+    for flow in (first.flow_to(second), second.flow_to(first)):
+        assert np.isfinite(flow.vectors).all() and not flow.vectors[~flow.known].any()

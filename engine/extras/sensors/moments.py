@@ -24,6 +24,9 @@ from ...rendering.frame import Frame, Output, view_of
 from .flow import Flow
 from .things import as_seen, known_to_both, things_of
 
+#: Pixels that are followed together: larger arrays would be fresh memory each time.
+_BLOCK = 1 << 14
+
 
 class Moment(Closed):
     """What a frame shows, and where everything in its scene was when it was drawn.
@@ -86,71 +89,76 @@ class Moment(Closed):
         -------
         Flow
         """
-        ids = known_to_both(self._things, other._things)
-        sky, directions = self._sky_to(other)
-        # One array after the other: at this size, fresh memory costs more than the arithmetic.
-        points = np.empty((self._frame.width * self._frame.height, 3))
-        self._put_in_view_of(self, ids, points)
-        points[sky] = directions
-        vectors = self._view.places(points)
-        self._put_in_view_of(other, ids, points)
-        turn = linalg.multiply(
-            other._view.view_from_world, linalg.inverse(self._view.view_from_world)
-        )
-        points[sky] = linalg.transform_directions(turn, directions)
-        end = other._view.places(points)
-        np.subtract(end, vectors, out=vectors)
-        known = np.isfinite(vectors[:, 0]) & np.isfinite(vectors[:, 1])
-        at = _pixels_at(end, known, other._frame)
-        visible = self._shows_again(other, points, at)
-        visible[sky] = (at[sky] >= 0) & (other._frame.object_id.reshape(-1)[at[sky]] < 0)
-        np.copyto(vectors, 0.0, where=~known[:, np.newaxis])
+        way = _Way(self, other)
         shape = self._frame.height, self._frame.width
-        return Flow(
-            vectors.astype(np.float32).reshape(*shape, 2),
-            known.reshape(shape),
-            visible.reshape(shape),
-        )
+        count = shape[0] * shape[1]
+        vectors = np.empty((count, 2), np.float32)
+        known, visible = np.empty(count, np.bool_), np.empty(count, np.bool_)
+        for first in range(0, count, _BLOCK):
+            rows = slice(first, min(first + _BLOCK, count))
+            vectors[rows], known[rows], visible[rows] = way.of(rows)
+        return Flow(vectors.reshape(*shape, 2), known.reshape(shape), visible.reshape(shape))
 
-    def _seen(self) -> NativeSeen:
-        """Return what each pixel shows."""
+    def _seen(self, rows: slice) -> NativeSeen:
+        """Return what some pixels show."""
         frame = self._frame
         return NativeSeen(
-            frame.object_id.reshape(-1),
-            frame.instance_id.reshape(-1),
-            frame.face_id.reshape(-1),
-            frame.barycentric.reshape(-1, 3),
+            frame.object_id.reshape(-1)[rows],
+            frame.instance_id.reshape(-1)[rows],
+            frame.face_id.reshape(-1)[rows],
+            frame.barycentric.reshape(-1, 3)[rows],
         )
-
-    def _put_in_view_of(self, other: Moment, ids: list[int], points: NDArray[np.float64]) -> None:
-        """Write where what the pixels show is for another moment's camera, (N, 3); or NaN."""
-        things = as_seen(other._things, ids, other._view.view_from_world)
-        seen_points(self._seen(), things, points, 0)
-
-    def _sky_to(self, other: Moment) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-        """Return the pixels of an environment behind everything in both, and their directions."""
-        in_perspective = self._view.eye[3] == other._view.eye[3] == 1.0
-        if not (self._sky and other._sky and in_perspective):
-            return np.empty(0, np.intp), np.empty((0, 3))
-        sky = np.flatnonzero(self._frame.object_id.reshape(-1) < 0)
-        rows, columns = np.divmod(sky, self._frame.width)
-        return sky, self._view.directions(np.stack([columns + 0.5, rows + 0.5], axis=1))
-
-    def _shows_again(
-        self, other: Moment, points: NDArray[np.float64], at: NDArray[np.int32]
-    ) -> NDArray[np.bool_]:
-        """Return which of the points the other picture shows at the pixels that they lie in."""
-        visible = np.empty(len(points), np.bool_)
-        view = other._view
-        things = as_seen(other._things, other._things, view.view_from_world)
-        is_near = view.eye[3] == 1.0
-        width = other._frame.width
-        marks = visible.view(np.uint8)
-        seen_again(self._seen(), other._seen(), things, points, at, width, is_near, marks, 0)
-        return visible
 
     def __repr__(self) -> str:
         return f"<Moment {self._frame.width}x{self._frame.height}: {len(self._things)} things>"
+
+
+class _Way:
+    """The way from the pixels of one moment's picture to another's."""
+
+    def __init__(self, here: Moment, there: Moment) -> None:
+        self._here, self._there = here, there
+        ids, view = known_to_both(here._things, there._things), there._view
+        self._begin = as_seen(here._things, ids, here._view.view_from_world)
+        self._end = as_seen(there._things, ids, view.view_from_world)
+        self._others = as_seen(there._things, there._things, view.view_from_world)
+        self._shown = there._seen(slice(None))
+        self._is_near = view.eye[3] == 1.0
+        self._has_sky = here._sky and there._sky and here._view.eye[3] == view.eye[3] == 1.0
+        world_from_here = linalg.inverse(here._view.view_from_world)
+        self._turn = linalg.multiply(view.view_from_world, world_from_here)
+
+    def of(self, rows: slice) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return vectors, known and visible of some pixels."""
+        seen, view = self._here._seen(rows), self._there._view
+        sky, directions = self._sky(rows)
+        points = np.empty((rows.stop - rows.start, 3))
+        seen_points(seen, self._begin, points, 0)
+        points[sky] = directions
+        begin = self._here._view.places(points)
+        seen_points(seen, self._end, points, 0)
+        points[sky] = linalg.transform_directions(self._turn, directions)
+        end = view.places(points)
+        vectors = end - begin
+        known = np.isfinite(vectors[:, 0]) & np.isfinite(vectors[:, 1])
+        vectors[~known] = 0.0
+        frame, visible = self._there._frame, np.empty(len(points), np.bool_)
+        at, marks = _pixels_at(end, known, frame), visible.view(np.uint8)
+        seen_again(
+            seen, self._shown, self._others, points, at, frame.width, self._is_near, marks, 0
+        )
+        visible[sky] = (at[sky] >= 0) & (frame.object_id.reshape(-1)[at[sky]] < 0)
+        return vectors, known, visible
+
+    def _sky(self, rows: slice) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """Return which of the pixels show an environment, and its directions."""
+        if not self._has_sky:
+            return np.empty(0, np.intp), np.empty((0, 3))
+        frame = self._here._frame
+        sky = np.flatnonzero(frame.object_id.reshape(-1)[rows] < 0)
+        down, across = np.divmod(sky + rows.start, frame.width)
+        centres = np.stack([across + 0.5, down + 0.5], axis=1)
+        return sky, self._here._view.directions(centres)
 
 
 def _pixels_at(

@@ -25,25 +25,16 @@ from ...base.validation import (
     NumberAttribute,
     choose,
     fraction,
-    matrix4,
     positive,
     whole_number,
 )
 from ...errors import InvalidArgumentError
-from ...model.motion.interpolation import straight, turns
 from ...model.scene.scene import Scene
-from ...model.spatial.rays import RayHits
 from .lidar_patterns import PATTERNS
-from .reflectance import reflectances_of
+from .scanning import measured, start_and_end
 from .scans import LidarScan
 
 _MOST_BEAMS = 1 << 24
-# A sensor's axes are x forward, y left, z up; those of its node are as a camera's.
-_NODE_FROM_SENSOR = np.array(
-    [(0.0, -1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (-1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)]
-)
-_ROUNDING = 1e-6
-_ULP = 2.0**-53
 
 
 def _distance(value: float, what: str) -> float:
@@ -302,83 +293,8 @@ class Lidar(Closed):
         ------
         InvalidArgumentError
         """
-        rays = self.directions.reshape(-1, 3)
-        share = np.minimum(self._times.reshape(-1) / self.duration, 1.0)
-        start = _rigid(pose, "pose")
-        origins, poses = _moving(
-            start, start if end_pose is None else _rigid(end_pose, "end_pose")
-        )(share)
-        directions = linalg.dot(poses, rays[:, np.newaxis, :])
-        hits = scene.raycast_many(origins, directions, max_distance=self.max_range)
-        kept = (hits.object_id >= 0) & (hits.distance >= self.min_range)
-        kept &= _kept_by_chance(len(rays), fraction(dropout, "dropout"), seed)
-        return self._returns(scene, hits, directions, np.flatnonzero(kept))
-
-    def _returns(
-        self,
-        scene: Scene,
-        hits: RayHits,
-        directions: NDArray[np.float64],
-        kept: NDArray[np.intp],
-    ) -> LidarScan:
-        """Return the scan of the rays that give a return, in the order of time, then ring."""
-        rings, columns = (one.astype(np.int32) for one in np.divmod(kept, self.shape[1]))
-        times = self._times.reshape(-1)[kept]
-        order = np.lexsort((rings, times))
-        kept, rings, columns, times = kept[order], rings[order], columns[order], times[order]
-        chosen: Any = [part[kept] for part in hits]
-        met = RayHits(*chosen)
-        incidence = np.abs(linalg.dot(met.normal, linalg.normalize(directions[kept])))
-        sensor = self.directions.reshape(-1, 3)[kept] * met.distance[:, np.newaxis]
-        return LidarScan(
-            shape=self.shape,
-            points=sensor.astype(np.float32),
-            world_points=met.position,
-            range=met.distance.astype(np.float32),
-            intensity=(reflectances_of(scene, met) * incidence).astype(np.float32),
-            incidence=incidence.astype(np.float32),
-            normal=met.normal.astype(np.float32),
-            ring=rings,
-            column=columns,
-            time=times.astype(np.float32),
-            object_id=met.object_id,
-            instance_id=met.instance_id,
-            face_id=met.face_id,
-        )
+        motion = start_and_end(pose, end_pose)
+        return measured(self, scene, motion, fraction(dropout, "dropout"), seed)
 
     def __repr__(self) -> str:
         return f"<Lidar {self.shape[0]} rings x {self.shape[1]} columns>"
-
-
-def _rigid(pose: ArrayLike, what: str) -> NDArray[np.float64]:
-    """Return world-from-sensor, in the sensor's own axes, of a pose that only turns and moves."""
-    matrix = matrix4(pose, what)
-    axes = matrix[:3, :3]
-    turned = float(linalg.dot(linalg.cross(axes[:, 0], axes[:, 1]), axes[:, 2]))
-    if np.abs(linalg.length(axes.T) - 1.0).max() > _ROUNDING or abs(turned - 1.0) > 4 * _ROUNDING:
-        raise InvalidArgumentError(f"{what} is scaled or mirrored: a sensor only turns and moves")
-    return linalg.multiply(matrix, _NODE_FROM_SENSOR)
-
-
-def _moving(start: NDArray[np.float64], end: NDArray[np.float64]) -> Any:
-    """Return a function from shares of a motion, (N,), to origins (N, 3) and rotations."""
-    ways = turns(*(linalg.matrix_to_quaternion(one)[np.newaxis] for one in (start, end)))
-
-    def at(shares: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        if np.array_equal(start, end):
-            return start[:3, 3], start[:3, :3]
-        moments, rows = np.unique(shares, return_inverse=True)
-        quaternions = ways.rows(np.zeros(len(moments), np.intp)).at(moments)
-        places = straight(start[np.newaxis, :3, 3], end[np.newaxis, :3, 3], moments)
-        return places[rows], linalg.quaternion_to_matrix(quaternions)[rows, :3, :3]
-
-    return at
-
-
-def _kept_by_chance(count: int, dropout: float, seed: int) -> NDArray[np.bool_]:
-    """Return which of so many beams are not lost."""
-    if dropout == 0.0:
-        return np.ones(count, bool)
-    number = whole_number(seed, "seed", 0, 2**63 - 1)
-    words = np.asarray(np.random.Philox(key=number).random_raw(count), np.uint64)
-    return (words >> np.uint64(11)) * _ULP >= dropout

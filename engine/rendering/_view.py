@@ -16,6 +16,7 @@ from .._native.scene_graph import camera_view, points_to_pixels
 from ..base import linalg
 from ..base.linalg import single
 from ..base.linalg.vectors import as_vectors
+from ..base.thread_count import resolve_threads
 from ..errors import InvalidArgumentError
 from ..model.scene.cameras import Camera, far_depth
 
@@ -113,7 +114,7 @@ class View:
         x, y, _, w = self.projection
         rows = np.stack([(x + w) * (0.5 * width), (w - y) * (0.5 * height), w])
         pixels = np.empty((len(points), 2))
-        points_to_pixels(rows, points, pixels, 0)
+        points_to_pixels(rows, points, pixels, resolve_threads())
         return pixels
 
     def directions(self, pixels: NDArray[np.float64]) -> NDArray[np.float64]:

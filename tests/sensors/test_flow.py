@@ -86,11 +86,12 @@ def test_what_stands_still_has_no_flow():
     assert np.array_equal(flow.visible, flow.known) and flow.known.any()
 
 
-def test_the_same_bytes_on_every_backend_with_any_threads():
+def test_the_same_bytes_on_every_backend_with_any_threads(monkeypatch):
     moving, results = MovingScene(), set()
     for backend in e3d.backends():
         for threads in (1, 3):
-            renderer = e3d.Renderer(SIZE, backend=backend, threads=threads)
+            monkeypatch.setenv("ENGINE3D_THREADS", str(threads))
+            renderer = e3d.Renderer(SIZE, backend=backend)
             a = moment(moving, 0.0, renderer=renderer)
             b = moment(moving, 0.3, renderer=renderer)
             flow = a.flow_to(b)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..._native.scene_graph import NativeSeen, seen_again, seen_points
 from ...base import linalg
 from ...base.calls import checks_types
+from ...base.thread_count import resolve_threads
 from ...base.validation import Closed
 from ...errors import MissingOutputError
 from ...model.environments.environment import Environment
@@ -123,7 +124,7 @@ class _Way:
         self._end = as_seen(there._things, ids, view.view_from_world)
         self._others = as_seen(there._things, there._things, view.view_from_world)
         self._shown = there._seen(slice(None))
-        self._is_near = view.eye[3] == 1.0
+        self._is_near, self._threads = view.eye[3] == 1.0, resolve_threads()
         self._has_sky = here._sky and there._sky and here._view.eye[3] == view.eye[3] == 1.0
         world_from_here = linalg.inverse(here._view.view_from_world)
         self._turn = linalg.multiply(view.view_from_world, world_from_here)
@@ -133,10 +134,10 @@ class _Way:
         seen, view = self._here._seen(rows), self._there._view
         sky, directions = self._sky(rows)
         points = np.empty((rows.stop - rows.start, 3))
-        seen_points(seen, self._begin, points, 0)
+        seen_points(seen, self._begin, points, self._threads)
         points[sky] = directions
         begin = self._here._view.places(points)
-        seen_points(seen, self._end, points, 0)
+        seen_points(seen, self._end, points, self._threads)
         points[sky] = linalg.transform_directions(self._turn, directions)
         end = view.places(points)
         vectors = end - begin
@@ -145,7 +146,15 @@ class _Way:
         frame, visible = self._there._frame, np.empty(len(points), np.bool_)
         at, marks = _pixels_at(end, known, frame), visible.view(np.uint8)
         seen_again(
-            seen, self._shown, self._others, points, at, frame.width, self._is_near, marks, 0
+            seen,
+            self._shown,
+            self._others,
+            points,
+            at,
+            frame.width,
+            self._is_near,
+            marks,
+            self._threads,
         )
         visible[sky] = (at[sky] >= 0) & (frame.object_id.reshape(-1)[at[sky]] < 0)
         return vectors, known, visible

@@ -79,7 +79,7 @@ _PUBLIC = {
 _MODULES = (
     *("batch", "choices", "colliders", "datasets", "detail", "drawings", "errors", "events"),
     *("lights", "linalg", "loaders", "motion", "navigation", "plugins", "primitives"),
-    *("rasterization", "resources", "sheets", "worlds"),
+    *("rasterization", "resources", "sensors", "sheets", "worlds"),
 )
 
 # Modules with optional dependencies or few users: not for ``import *``.

@@ -20,6 +20,7 @@ from . import plugins as plugins
 from . import primitives as primitives
 from . import rasterization as rasterization
 from . import resources as resources
+from . import sensors as sensors
 from . import sheets as sheets
 from . import worlds as worlds
 from .apps.viewer.show import show as show

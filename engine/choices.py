@@ -78,6 +78,7 @@ OutputMode = Literal[
     "emissive",
     "tangent",
     "radiance",
+    "range",
     "instance_id",
     "material_id",
 ]

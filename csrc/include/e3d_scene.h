@@ -171,6 +171,20 @@ typedef struct e3d_hit {
 int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes,
                       int32_t shape_count, const double origin[3], const double direction[3],
                       double farthest, e3d_cull cull, e3d_hit *hit);
+/* Many rays. `lacks`: (count,), for each ray -1 once it is cast, else the number of an object whose shape is missing; 0 or more
+ * to begin with. `ids`: (count, 3) slot, instance, face; `values`: (count, 10) distance, position, normal, barycentric. */
+typedef struct e3d_rays {
+    int32_t count;
+    const double *origins, *directions; /* (count, 3) */
+    double farthest;
+    e3d_cull cull;
+    int32_t *ids, *lacks;
+    double *values;
+} e3d_rays;
+
+/* Casts those that are not cast yet; returns whether all are now. The number of threads doesn't change the result. */
+int e3d_graph_rays(const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes, int32_t shape_count,
+                   const e3d_rays *rays, int threads);
 /* The same for one shape without instances, at the pose `world`; its slot is 0. */
 void e3d_shape_ray(const e3d_shape *shape, const double world[12], const double origin[3],
                    const double direction[3], double farthest, e3d_cull cull, e3d_hit *hit);

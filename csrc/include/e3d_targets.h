@@ -31,7 +31,8 @@ extern "C" {
     X(E3D_OUTPUT_METALLIC_ROUGHNESS, metallic_roughness, float, 2, 0, MATERIALS) \
     X(E3D_OUTPUT_EMISSIVE, emissive, float, 3, 0, MATERIALS) /* working space */ \
     X(E3D_OUTPUT_TANGENT, tangent, float, 4, 0, TANGENTS) /* view space, and the sign of the bitangent */ \
-    X(E3D_OUTPUT_RADIANCE, radiance, float, 3, 0, RADIANCE) /* the working space's colour before tone mapping and clamping */
+    X(E3D_OUTPUT_RADIANCE, radiance, float, 3, 0, RADIANCE) /* the working space's colour before tone mapping and clamping */ \
+    X(E3D_OUTPUT_RANGE, range, float, 1, 0, POSITIONS) /* along the pixel's ray */
 
 typedef enum e3d_output_kind { E3D_EACH_OUTPUT(E3D_ENUMERATOR) E3D_OUTPUTS } e3d_output_kind;
 

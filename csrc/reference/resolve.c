@@ -239,6 +239,7 @@ static void write_surface(const e3d_targets *targets, size_t pixel, const ref_su
     write_id(targets->material_id, pixel, primitive->material->id);
     write_floats(targets->ndc_depth, pixel, &ndc_depth, 1);
     write_floats(targets->depth, pixel, &surface->metric_depth, 1);
+    write_floats(targets->range, pixel, &surface->range, 1);
     write_floats(targets->albedo, pixel, surface->albedo, 3);
     write_floats(targets->normal, pixel, surface->view_normal, 3);
     write_floats(targets->position, pixel, surface->view_position, 3);

@@ -45,6 +45,13 @@ static float interpolate_attribute(const ref_surface *s, const float *values, in
     return ref_interpolate(s, v);
 }
 
+/* R181 */
+static float range_of(const float position[3])
+{
+    double x = position[0], y = position[1], z = position[2];
+    return (float)sqrt((x * x + y * y) + z * z);
+}
+
 /* R21 */
 static void find_position(const ref_scene *scene, ref_surface *s)
 {
@@ -62,6 +69,7 @@ static void find_position(const ref_scene *scene, ref_surface *s)
     }
     ref_transform_point(scene->view_from_world, s->world_position, s->view_position);
     s->metric_depth = 0.0f - s->view_position[2];
+    s->range = scene->frame->eye[3] == 1.0f ? range_of(s->view_position) : s->metric_depth;
 }
 
 /* R153 */

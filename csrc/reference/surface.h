@@ -37,7 +37,7 @@ typedef struct ref_surface {
     float barycentric[3];
     float world_position[3], view_position[3];
     float lit_position[3]; /* R153: the position in world space at which light is found */
-    float metric_depth;
+    float metric_depth, range; /* range: R181 */
     float corner_position[3][3];                 /* [vertex], in world space */
     float corner_normal[3][3];                   /* likewise, turned to the viewer's side; used if is_smooth */
     int is_smooth;                               /* the normal is that of the corners (R22) */

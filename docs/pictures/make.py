@@ -408,6 +408,51 @@ def robot() -> np.ndarray:
     return np.hstack(pictures)
 
 
+def sensors() -> np.ndarray:
+    """A stereo pair with its disparity, optical flow with its mask, and a LiDAR's points."""
+    scene, size = e3d.Scene(background=(150, 185, 215)), (320, 240)
+    stand(scene, "island.obj", at=(0.0, 0.0), height=6.0, turn=-0.35)
+    stand(scene, "teapot.obj", at=(-3.4, 3.2), height=1.6, turn=0.5)
+    scene.add(e3d.plane(30.0), name="floor")
+    add_daylight(scene)
+    lens, pose = look((-2.0, 4.5, 13.0), (0.0, 2.2, 0.0), 0.7)
+    outputs = ("color", "depth", *e3d.sensors.Moment.OUTPUTS)
+    with e3d.Renderer(size, look="plain", samples=4, antialiasing="msaa") as renderer:
+        options = {"outputs": outputs, "cull": "back"}
+        pair = e3d.sensors.StereoCamera(lens, 0.6).render(renderer, scene, pose, **options)
+        now = e3d.sensors.Moment(pair.left, scene)
+        teapot = scene.find("teapot.obj")
+        teapot.pose = linalg.multiply(linalg.translation((0.9, 0.0, 0.3)), teapot.pose)
+        later = look((-1.6, 4.5, 13.0), (0.2, 2.2, 0.0), 0.7)
+        flow = now.flow_to(e3d.sensors.Moment(renderer.render(scene, later, **options), scene))
+        scan = e3d.sensors.Lidar.of("hdl-64e").scan(
+            scene, linalg.look_at((-1.0, 2.4, 7.0), (-1.0, 2.4, 0.0))
+        )
+        cloud = e3d.Mesh(scan.world_points, points=np.arange(len(scan)))
+        points = e3d.render(
+            cloud,
+            look((-9.0, 9.0, 17.0), (-0.5, 1.0, 1.0), 0.62),
+            size=size,
+            color_by="y",
+            colormap="turbo",
+            clim=(0.0, 5.0),
+            look="plain",
+            samples=4,
+            point_size=1.5,
+        ).color
+    near = np.clip(pair.left_disparity / pair.left_disparity.max(), 0.0, 1.0)
+    tiles = (
+        ("left", pair.left.color[..., :3]),
+        ("right", pair.right.color[..., :3]),
+        ("disparity", np.repeat((near[..., np.newaxis] * 255).astype(np.uint8), 3, axis=2)),
+        ("flow", flow.colors()),
+        ("hidden in the next", np.repeat((flow.occluded * np.uint8(255))[..., None], 3, axis=2)),
+        ("LiDAR, 64 beams", points[..., :3]),
+    )
+    solid = np.full((*size[::-1], 1), 255, np.uint8)
+    return sheet([(name, np.concatenate([one, solid], axis=2)) for name, one in tiles], 3)
+
+
 PICTURES = {
     "models": models,
     "modes": modes,
@@ -421,13 +466,14 @@ PICTURES = {
     "impostors": impostors,
     "golden": golden,
     "sheet": contact_sheet,
+    "sensors": sensors,
     "robot": robot,
     "beside_lines": beside_lines,
     **VECTORS,
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", "mirrors", "sheet", "city", "impostors", "robot", "beside_lines", *gallery.programs())
+SMALL = ("beside_lines", "models", "mirrors", "sheet", "sensors", "city", "impostors", "robot", *gallery.programs())
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 

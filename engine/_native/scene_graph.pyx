@@ -18,6 +18,7 @@ from e3d cimport (
     E3D_CULL_NONE, E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind,
     e3d_thread_count,
 )
+from e3d_flow cimport *
 from e3d_scene cimport *
 
 import numpy as np
@@ -52,6 +53,9 @@ cdef class FixedSlots:
 
 include "scene_shapes.pxi"
 include "item_boxes.pxi"
+include "seen_points.pxi"
+
+cdef int32_t MOST_RAYS = 0x7FFFFF00  # a task has 256
 
 
 cdef class NativeGraph:
@@ -449,33 +453,35 @@ cdef class NativeGraph:
         int cull,
         int32_t[:, ::1] ids not None,
         double[:, ::1] values not None,
-        Py_ssize_t first,
-    ) -> tuple[int, int]:
-        """Cast rays (N, 3) of unit length from the first one on, as of the last update.
+        int32_t[::1] lacks not None,
+        int threads,
+    ) -> bool:
+        """Cast rays (N, 3) of unit length, as of the last update; return whether all are cast.
 
         Writes slot (-1: none), instance and face into ids (N, 3); distance, position, normal and
-        barycentric into values (N, 10). Returns how far it came and the number of an object that
-        has to be told to the shapes before going on, or -1.
+        barycentric into values (N, 10). Casts the rays whose element of lacks (N,) is not -1, and
+        writes there -1, or the number of an object that has to be told to the shapes first.
         """
-        cdef Py_ssize_t count = origins.shape[0], done = first
-        cdef e3d_hit hit
-        cdef int32_t missing = -1
+        cdef Py_ssize_t count = origins.shape[0]
         if origins.shape[1] != 3 or directions.shape[1] != 3 or directions.shape[0] != count:
             raise InvalidArgumentError("rays must be (N, 3) and (N, 3)")
-        if ids.shape[0] != count or ids.shape[1] != 3:
-            raise InvalidArgumentError("ids must be (N, 3)")
+        if ids.shape[0] != count or ids.shape[1] != 3 or lacks.shape[0] != count:
+            raise InvalidArgumentError("ids must be (N, 3), and lacks (N,)")
         if values.shape[0] != count or values.shape[1] != 10:
             raise InvalidArgumentError("values must be (N, 10)")
+        if count > MOST_RAYS:
+            raise InvalidArgumentError("too many rays: cast them in several calls")
+        if count == 0:
+            return True
         self.need_tree()
-        while done < count and missing < 0:
-            missing = e3d_graph_ray(
-                &self.graph, self.tree, shapes.shapes, shapes.count, &origins[done, 0],
-                &directions[done, 0], farthest, <e3d_cull>cull, &hit,
-            )
-            if missing < 0:
-                copy_hit(&hit, &ids[done, 0], &values[done, 0])
-                done += 1
-        return done, missing
+        cdef e3d_rays rays
+        rays.count, rays.farthest, rays.cull = <int32_t>count, farthest, <e3d_cull>cull
+        rays.origins, rays.directions = &origins[0, 0], &directions[0, 0]
+        rays.ids, rays.values, rays.lacks = &ids[0, 0], &values[0, 0], &lacks[0]
+        threads = threads if threads else e3d_thread_count()
+        return e3d_graph_rays(
+            &self.graph, self.tree, shapes.shapes, shapes.count, &rays, threads
+        ) != 0
 
     def renew_boxes(
         self,
@@ -512,16 +518,6 @@ cdef class NativeGraph:
         self.changes += 1
         self.graph.object[slot] = object
         e3d_graph_touch(&self.graph, slot)
-
-
-cdef void copy_hit(const e3d_hit *hit, int32_t *ids, double *values) noexcept:
-    ids[0] = hit.slot
-    ids[1] = hit.instance
-    ids[2] = hit.face
-    values[0] = hit.distance
-    memcpy(values + 1, hit.position, 3 * sizeof(double))
-    memcpy(values + 4, hit.normal, 3 * sizeof(double))
-    memcpy(values + 7, hit.barycentric, 3 * sizeof(double))
 
 
 cdef object NDARRAY = np.ndarray

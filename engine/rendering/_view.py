@@ -12,10 +12,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._native.scene_graph import camera_view
+from .._native.scene_graph import camera_view, points_to_pixels
 from ..base import linalg
 from ..base.linalg import single
 from ..base.linalg.vectors import as_vectors
+from ..base.thread_count import resolve_threads
 from ..errors import InvalidArgumentError
 from ..model.scene.cameras import Camera, far_depth
 
@@ -103,6 +104,30 @@ class View:
                 [(x / w + 1.0) * (0.5 * width), (1.0 - y / w) * (0.5 * height)], axis=-1
             )
         return pixels, -_rise(self.view_from_world[2], points)
+
+    def places(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the pixel positions (N, 2) of points of view space (N, 3), as `project` has them.
+
+        NaN for points not in front of the camera. Rule: R183.
+        """
+        _, _, width, height = self._lens
+        x, y, _, w = self.projection
+        rows = np.stack([(x + w) * (0.5 * width), (w - y) * (0.5 * height), w])
+        pixels = np.empty((len(points), 2))
+        points_to_pixels(rows, points, pixels, resolve_threads())
+        return pixels
+
+    def directions(self, pixels: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the view-space directions (N, 3) in which a perspective camera's pixels look.
+
+        Their lengths are arbitrary. It is the inverse of `places`.
+        """
+        _, _, width, height = self._lens
+        view_from_clip = linalg.inverse(self.projection)
+        x, y = pixels[:, :1] * (2.0 / width) - 1.0, 1.0 - pixels[:, 1:] * (2.0 / height)
+        right, up, forward, middle = view_from_clip[:3].T
+        middle = middle + forward * far_depth(self.camera)
+        return (right * x + up * y) + middle
 
     def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
         """Return the range of metric depths of a world box, clipped to the camera's range."""

@@ -1,22 +1,18 @@
-"""Selection of the backend and the number of threads.
+"""Selection of the backend.
 
-In: the arguments ``backend`` and ``threads`` and the environment. Out: a backend's number and a
-thread count for the core. ``ENGINE3D_BACKEND`` and ``ENGINE3D_THREADS`` define what ``"auto"`` and
-0 mean. An unknown or unsupported backend is an error; there is no fallback.
+In: the argument ``backend`` and the environment. Out: a backend's number. ``ENGINE3D_BACKEND``
+defines what ``"auto"`` means. An unknown or unsupported backend is an error; there is no fallback.
 """
 
 from __future__ import annotations
 
-import numbers
 import os
 from typing import cast
 
 from .._native import rasterizer as _native
 from ..base.numbers import shown
 from ..choices import Backend
-from ..errors import BackendError, InvalidArgumentError
-
-MAX_THREADS = 256
+from ..errors import BackendError
 
 
 def backends() -> list[Backend]:
@@ -52,25 +48,3 @@ def resolve_backend(backend: Backend = "auto") -> int:
             f"{source}={backend!r} does not run on this machine: it has {', '.join(backends())}"
         )
     return number
-
-
-def resolve_threads(threads: int = 0) -> int:
-    """Return a number of threads; 0 means all CPUs that this process may use.
-
-    Raises
-    ------
-    InvalidArgumentError
-    """
-    source = "threads"
-    if isinstance(threads, numbers.Integral) and threads == 0:
-        text = os.environ.get("ENGINE3D_THREADS") or "0"
-        source = "ENGINE3D_THREADS"
-        try:
-            threads = int(text)
-        except ValueError:
-            threads = text
-    if not isinstance(threads, numbers.Integral) or not 0 <= threads <= MAX_THREADS:
-        raise InvalidArgumentError(
-            f"{source} must be a whole number in 0..256, not {shown(threads)}"
-        )
-    return int(threads)

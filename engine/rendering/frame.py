@@ -163,6 +163,10 @@ class Frame:
         "linear; 0 = background, unless it is an environment. What is blended is laid over what is "
         "behind it, as in the picture."
     )
+    range: _Output[np.float32] = _Output(
+        "(H, W) float32: distance from the camera along the pixel's ray, in world units; without "
+        "perspective the same as depth; 0 = background."
+    )
 
     def __init__(self, size: tuple[int, int], outputs: dict[str, NDArray[Any]]) -> None:
         self.width, self.height = sides_of(size)
@@ -233,9 +237,7 @@ class Frame:
         InvalidArgumentError
             The points have a wrong shape, or the frame was not drawn by a `Renderer`.
         """
-        if self._seen is None:
-            raise InvalidArgumentError("the frame was not drawn by a Renderer")
-        return self._seen[0].project(points, self.width, self.height)
+        return view_of(self).project(points, self.width, self.height)
 
     def image(self) -> Image.Image:
         """Return the colour as a Pillow image (``PIL.Image.Image``, RGBA), a copy."""
@@ -305,3 +307,16 @@ class Frame:
 
     def __repr__(self) -> str:
         return f"<Frame {self.width}x{self.height}: {', '.join(self._outputs)}>"
+
+
+def view_of(frame: Frame) -> View:
+    """Return the view that a frame was drawn from.
+
+    Raises
+    ------
+    InvalidArgumentError
+        The frame was not drawn by a `Renderer`.
+    """
+    if frame._seen is None:
+        raise InvalidArgumentError("the frame was not drawn by a Renderer")
+    return frame._seen[0]

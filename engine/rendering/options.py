@@ -172,7 +172,7 @@ class RenderOptions:
         output is painted over the surfaces, and added to the frame together with ``depth``:
         ``"albedo"``, ``"position"``, ``"world_position"``, ``"world_normal"``, ``"uv"``,
         ``"barycentric"``, ``"metallic_roughness"``, ``"emissive"``, ``"tangent"``, ``"radiance"``,
-        ``"instance_id"`` or ``"material_id"``.
+        ``"range"``, ``"instance_id"`` or ``"material_id"``.
     wireframe : {None, "overlay", "only"}
         Draw the visible edges over the picture, or instead of its faces.
     cull : {"back", "front", "none", "auto"}

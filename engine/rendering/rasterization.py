@@ -15,10 +15,11 @@ from .._native import rasterizer as _native
 from ..base.calls import hinted, shows_annotations
 from ..base.image_size import check_size
 from ..base.numbers import as_array, floats
+from ..base.thread_count import resolve_threads
 from ..base.validation import choose
 from ..choices import Backend, Cull
 from ..errors import InvalidArgumentError
-from .backend_selection import resolve_backend, resolve_threads
+from .backend_selection import resolve_backend
 
 
 @shows_annotations

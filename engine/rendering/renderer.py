@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 from .._native import rasterizer as _native
 from ..base.calls import hinted
 from ..base.image_size import check_size
+from ..base.thread_count import resolve_threads
 from ..base.validation import Closed, choose, is_one_of
 from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
@@ -22,7 +23,7 @@ from ._output_pool import OutputPool
 from ._painter import How, Painter
 from ._turn import RendererTurn
 from ._viewpoint import Viewpoint, frustum_of
-from .backend_selection import resolve_backend, resolve_threads
+from .backend_selection import resolve_backend
 from .camera_choice import CameraChoice
 from .draw_list.placement import Placing
 from .frame import Frame

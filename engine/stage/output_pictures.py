@@ -42,7 +42,7 @@ def picture_of(name: str, values: np.ndarray, bounds: Sphere) -> np.ndarray:
     bounds : Sphere
         The scene's bounds, which map positions to colours.
     """
-    if name == "depth":
+    if name in ("depth", "range"):
         return _nearness(values)
     if name in ("albedo", "emissive", "radiance"):
         return _encoded(values)

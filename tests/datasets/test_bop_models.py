@@ -52,8 +52,12 @@ def read_ply(path):
 
 def test_each_object_with_one_shape_has_a_model(bop):
     folder, written = bop
-    files = ["models/models_info.json", "models/obj_000002.ply", "models/obj_000003.ply"]
+    files = ["models_info.json", "obj_000002.ply", "obj_000003.ply"]
+    files = [f"{place}/{name}" for place in ("models", "models_eval") for name in files]
     assert sorted(path for path in written if path.startswith("models")) == files
+    for name in ("models_info.json", "obj_000002.ply", "obj_000003.ply"):
+        one, other = (folder / place / name for place in ("models", "models_eval"))
+        assert one.read_bytes() == other.read_bytes()
     infos = json.loads((folder / "models" / "models_info.json").read_text())
     assert list(infos) == ["2", "3"]
     for number, info in infos.items():

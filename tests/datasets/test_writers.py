@@ -40,7 +40,7 @@ def drawn(make_samples, writer, count=1):
 def test_coco_tells_what_shows(make_samples, tmp_path):
     writer = CocoWriter()
     paths = write_dataset(tmp_path, writer, make_samples(writer, 2))
-    assert paths == ["images/p0.png", "images/p1.png", "annotations.json"]
+    assert paths == ["images/p0.png", "images/p1.png", "annotations.json", "README.txt"]
     told = json.loads((tmp_path / "annotations.json").read_text())
     assert [c["name"] for c in told["categories"]] == ["ball", "box", "pair"]
     assert [i["file_name"] for i in told["images"]] == ["p0.png", "p1.png"]
@@ -67,7 +67,7 @@ def test_coco_has_other_outputs_beside_its_own(make_samples, tmp_path):
     write_dataset(tmp_path / "plain", plain, make_samples(plain, 1))
     paths = write_dataset(tmp_path / "more", writer, make_samples(writer, 1))
     own = ["images/p0.png", "annotations.json"]
-    assert paths == [own[0], "depth/p0.npy", "object_id/p0.npy", own[1]]
+    assert paths == [own[0], "depth/p0.npy", "object_id/p0.npy", own[1], "README.txt"]
     for path in own:
         assert (tmp_path / "more" / path).read_bytes() == (tmp_path / "plain" / path).read_bytes()
     frame = drawn(make_samples, writer)[0].frame
@@ -260,9 +260,9 @@ def test_without_labels_each_mesh_is_a_thing(make_samples):
 def test_tars_hold_the_pictures(make_samples, tmp_path):
     writer = WebDatasetWriter(["color", "depth"], shard=2)
     paths = write_dataset(tmp_path, writer, make_samples(writer, 3))
-    assert paths[-2:] == ["shard-000000.tar", "shard-000001.tar"]
-    assert {path.name for path in tmp_path.rglob("*")} == set(paths[-2:])  # and no empty folder
-    with tarfile.open(tmp_path / paths[-2]) as tar:
+    assert paths[-3:] == ["shard-000000.tar", "shard-000001.tar", "README.txt"]
+    assert {path.name for path in tmp_path.rglob("*")} == set(paths[-3:])  # and no empty folder
+    with tarfile.open(tmp_path / paths[-3]) as tar:
         names = tar.getnames()
         assert names[:3] == ["000000000.depth.npy", "000000000.json", "000000000.png"]
         assert len(names) == 6 and all(entry.mtime == 0 for entry in tar)

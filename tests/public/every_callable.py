@@ -27,8 +27,8 @@ from engine3d.io.reading.sources import Source
 MODULES = ("", *e3d._MODULES)
 #: Classes that only the package makes, or that are data of its own without a check.
 MADE_ELSEWHERE = {
-    *("Frame", "Joint", "Node", "NodeSelection", "Robot", "Sheet", "World"),
-    *("DrawingSheet", "LineDrawing"),
+    *("Flow", "Frame", "Joint", "LidarScan", "Node", "NodeSelection", "Robot", "Sheet"),
+    *("DrawingSheet", "LineDrawing", "StereoPair", "World"),
     *("batch.Summary", "datasets.Sample"),
     *("loaders.CameraRecord", "loaders.Document", "loaders.LightRecord"),
     *("plugins.Plugin", "plugins.PluginFile"),
@@ -105,7 +105,7 @@ def window():
 
 @functools.cache
 def frame():
-    every = ("color", "depth", "ndc_depth", "object_id", "instance_id", "face_id")
+    every = ("color", "depth", "ndc_depth", *e3d.sensors.Moment.OUTPUTS)
     return draw(outputs=every)
 
 
@@ -214,6 +214,10 @@ RIGHT: dict[str, Any] = {
     "angle": 0.3,
     "angles": (0.1, 0.2, 0.3),
     "aspect": 1.0,
+    "azimuths": [0.0, 0.1],
+    "baseline": 0.1,
+    "elevations": [0.0],
+    "fov": (1.0, 0.5),
     "axis": (0, 1, 0),
     "azimuth": 0.3,
     "b": (3.0, 2.0, 1.0),
@@ -287,6 +291,15 @@ RIGHT: dict[str, Any] = {
     "poses": [(0, 0, 0, 1)],
     "positions": np.eye(3),
     "MorphTarget.positions": np.ones((3, 3)),
+    "StereoCamera.disparity.depth": [[1.0]],
+    "StereoCamera.render.renderer": lambda: e3d.Renderer(SIZE, threads=1),
+    "Flow.warp.picture": np.ones((4, 4)),
+    "Flow.save.path": "flow.flo",
+    "LidarScan.save.path": "scan.pcd",
+    "Lidar.of.name": "vlp-16",
+    "sensors.save_values.values": np.ones((2, 2)),
+    "save_values.values": np.ones((2, 2)),
+    "Moment.flow_to.other": COPIED["Moment"],
     "PropertyChannel.target": e3d.Material,
     "PropertyChannel.path": "shininess",
     "PropertyChannel.values": [[1.0], [2.0]],

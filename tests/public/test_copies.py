@@ -48,6 +48,18 @@ def resource():
 
 
 POSE = np.eye(4)
+
+
+def moment():
+    scene, outputs = drawn(), e3d.sensors.Moment.OUTPUTS
+    return e3d.sensors.Moment(e3d.Renderer((4, 4)).render(scene, outputs=outputs), scene)
+
+
+def stereo_pair():
+    stereo = e3d.sensors.StereoCamera(e3d.PerspectiveCamera(), 0.1)
+    return stereo.render(e3d.Renderer((4, 4)), drawn(), e3d.look_at((0, 0, 5), (0, 0, 0)))
+
+
 COPIED = {
     "Mesh": lambda: drawn().find("ball").object,
     "InstancedMesh": lambda: drawn().find("crowd").object,
@@ -96,6 +108,12 @@ COPIED = {
     "LineDrawing": lambda: e3d.drawings.line_drawing(painted(), threads=1),
     "DrawingSheet": lambda: e3d.drawings.drawing_sheet(painted(), threads=1),
     "World": lambda: e3d.worlds.city(20_000, seed=1),
+    "Moment": lambda: moment(),
+    "Flow": lambda: moment().flow_to(moment()),
+    "StereoCamera": lambda: e3d.sensors.StereoCamera(e3d.PerspectiveCamera(), 0.1),
+    "StereoPair": lambda: stereo_pair(),
+    "Lidar": lambda: e3d.sensors.Lidar([0.0], [0.0, 0.1]),
+    "LidarScan": lambda: e3d.sensors.Lidar([0.0], [0.0, 0.1]).scan(drawn(), np.eye(4)),
 }
 
 
@@ -126,7 +144,9 @@ REFUSED = {
 }
 WITH_NODES = {"RayHit", "ColliderHit"}  # tuples: what holds for their nodes holds for them
 #: Their arrays are the caller's.
-MAY_BE_WRITTEN = {"Canvas", "Frame", "RayHits", "RasterizeResult", "Values"}
+MAY_BE_WRITTEN = {
+    *("Canvas", "Flow", "Frame", "LidarScan", "RayHits", "RasterizeResult", "StereoPair", "Values"),
+}
 WAYS = {
     "copy": copy.copy,
     "deepcopy": copy.deepcopy,

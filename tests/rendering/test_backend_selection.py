@@ -4,7 +4,8 @@ import pytest
 
 import engine3d as e3d
 from engine3d._native import rasterizer
-from engine3d.rendering.backend_selection import resolve_backend, resolve_threads
+from engine3d.base.thread_count import resolve_threads
+from engine3d.rendering.backend_selection import resolve_backend
 
 
 @pytest.fixture(autouse=True)

@@ -81,6 +81,25 @@ def test_rays_against_brute_force(seed):
     assert met > 5
 
 
+def test_many_rays_find_what_each_finds_alone():
+    """They are shared among threads, and objects become known while some are cast already."""
+    origins = np.random.default_rng(2).normal(0, 8, (900, 3))
+    (scene, _), (fresh, _) = random_scene(31), random_scene(31)
+    hits = scene.raycast_many(origins, -origins)
+    again = scene.raycast_many(origins, -origins)
+    assert all(np.array_equal(a, b) for a, b in zip(hits, again, strict=True))
+    assert 0.1 < (hits.object_id >= 0).mean() < 1.0
+    for row in range(0, 900, 7):
+        hit = fresh.raycast(origins[row], -origins[row])
+        if hit is None:
+            assert hits.object_id[row] == -1 and np.isinf(hits.distance[row])
+            continue
+        same = hit.object_id, hit.instance_id, hit.face_id, hit.distance
+        found = hits.object_id[row], hits.instance_id[row], hits.face_id[row], hits.distance[row]
+        assert same == found
+        assert np.array_equal(hits.barycentric[row], hit.barycentric)
+
+
 def test_rays_follow_what_moves():
     scene, random = random_scene(9)
     for step in range(8):

@@ -76,6 +76,15 @@ static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane
     }
 }
 
+/* R181 */
+static void find_ranges(const e3d_lane_array position[3], int count, float *out)
+{
+    for (int i = 0; i < count; i++) {
+        double x = position[0][i], y = position[1][i], z = position[2][i];
+        out[i] = (float)sqrt((x * x + y * y) + z * z);
+    }
+}
+
 static void put_view(const batch_place *place)
 {
     const e3d_batch *batch = place->batch;
@@ -86,12 +95,17 @@ static void put_view(const batch_place *place)
         to_view(view, batch, batch->normal, 0, 0, v);
         put(place, E3D_OUTPUT_NORMAL, v);
     }
-    if (t->position || t->depth) {
-        to_view(view, batch, e3d_batch_places(batch), 1, t->position ? 0 : 2, v);
+    if (t->position || t->depth || t->range) {
+        int in_perspective = place->store->pass->frame->eye[3] == 1.0f;
+        e3d_lane_array range;
+        to_view(view, batch, e3d_batch_places(batch), 1, t->position || t->range ? 0 : 2, v);
         put(place, E3D_OUTPUT_POSITION, v);
+        if (t->range && in_perspective)
+            find_ranges(v, batch->count, range);
         for (int i = 0; i < batch->count; i++)
             v[2][i] = 0.0f - v[2][i];
         put(place, E3D_OUTPUT_DEPTH, v + 2);
+        put(place, E3D_OUTPUT_RANGE, in_perspective ? (const e3d_lane_array *)&range : v + 2);
     }
 }
 

@@ -5,7 +5,8 @@ A stereo pair
 This draws one scene for a left and a right eye, and lays both into one picture for red and cyan
 glasses.
 
-Both cameras look the same way, and stand beside each other.
+Both cameras look the same way, and stand beside each other. For disparities and masks, and for
+data sets, there is ``engine3d.sensors.StereoCamera``.
 """
 
 from importlib.resources import files

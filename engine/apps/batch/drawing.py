@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -28,7 +28,7 @@ from ...stage.renderer import Renderer
 from ...version import __version__
 from ..datasets.generator import Generator
 from ..datasets.kinds import plugin_of
-from ..datasets.samples import Sample
+from ..datasets.samples import Move, Sample
 from ..datasets.writer import Content, DatasetWriter
 from .cameras import camera_of
 from .file_digests import Inputs
@@ -187,6 +187,8 @@ class Drawer:
             said.labels,
             options,
             task.seed,
+            _move(said.next),
+            _move(said.previous),
         )
         files, note = _described(sample, writer)
         for end, data in said.files.items():
@@ -283,8 +285,25 @@ def _chosen_camera(task: Task, scene: Scene, said: Said) -> tuple[Camera, NDArra
         chosen = next(nodes, None)
     if chosen is None:
         return camera_of({}, scene, task.size)
+    return _placed(chosen)
+
+
+def _placed(chosen: Any) -> tuple[Camera, NDArray[np.float64]]:
+    """Return a camera that a script chose, and its pose."""
     if isinstance(chosen, Node) and isinstance(chosen.object, Camera):
         return chosen.object, chosen.world_pose
     if isinstance(chosen, tuple) and len(chosen) == 2 and isinstance(chosen[0], Camera):
         return chosen[0], np.asarray(chosen[1], np.float64)
     raise InvalidArgumentError("camera must be a node of a camera, or (camera, pose)")
+
+
+def _move(move: Callable[[], Any] | None) -> Move | None:
+    """Return a script's function to another moment, whose camera is checked."""
+    if move is None:
+        return None
+
+    def moved() -> tuple[Camera, NDArray[np.float64]] | None:
+        chosen = move()
+        return None if chosen is None else _placed(chosen)
+
+    return moved

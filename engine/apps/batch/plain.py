@@ -1,6 +1,6 @@
 """Output without a data set: the files of each picture side by side, under its name.
 
-Out: ``NAME.png``, or another format, and ``NAME.OUTPUT.npy``.
+Out: ``NAME.png``, or another format, and ``NAME.OUTPUT.npy``, or another format of numbers.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import Any
 
 from ...base.files import json_records as records
 from ...rendering.frame import Frame
-from ..datasets.folders import encoded
+from ..datasets.measured import encoded_output
 from ..datasets.samples import Sample
 from ..datasets.writer import DatasetWriter
 
@@ -41,7 +41,7 @@ class PlainWriter(DatasetWriter):
             if output == "color" and suffix:
                 files[f"{name}.{suffix}"] = frame.encode(suffix)
                 continue
-            suffix, data = encoded(frame, output)
+            suffix, data = encoded_output(frame, f"{output}.{suffix}" if suffix else output)
             own = name if output == "color" else f"{name}.{output}"
             files[f"{own}.{suffix}"] = data
         return files

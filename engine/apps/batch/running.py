@@ -25,10 +25,11 @@ from ...base.files.hashing import hash_of_file
 from ...base.files.making_folders import make_folder_of
 from ...base.numbers import real, shown
 from ...base.plugins.discovery import are_on
+from ...base.thread_count import MAX_THREADS
 from ...base.validation import whole_number
 from ...choices import Backend
 from ...errors import FileAccessError, InvalidArgumentError, warn
-from ...rendering.backend_selection import MAX_THREADS, resolve_backend
+from ...rendering.backend_selection import resolve_backend
 from ...version import __version__
 from ..datasets.writer import DatasetWriter, Note
 from .drawing import How, Outcome, draw_chunk, writer_of

@@ -22,8 +22,6 @@ from ..datasets.generator import Generator
 from .bytes_of import bytes_of
 from .file_digests import digest_of
 
-_SAID = ("camera", "labels", "files")
-
 
 class ScriptError(Engine3DError, RuntimeError):
     """A script raised an exception, or is invalid."""
@@ -38,11 +36,19 @@ class Said(NamedTuple):
     labels : dict of Node to str, or None
     files : dict of str to bytes
         By the end of their names, such as ``"points.npy"``.
+    next, previous : callable or None
+        Moves the scene to the next or previous picture's moment, for optical flow; returns that
+        picture's camera, or None for the same.
     """
 
     camera: Any = None
     labels: Mapping[Node, str] | None = None
     files: Mapping[str, bytes] = {}
+    next: Callable[[], Any] | None = None
+    previous: Callable[[], Any] | None = None
+
+
+_SAID = tuple(Said.__annotations__)
 
 
 class Loaded(NamedTuple):
@@ -162,4 +168,9 @@ def _said(result: Any) -> Said:
     for name, value in (("labels", labels), ("files", files)):
         if value is not None and not isinstance(value, Mapping):
             raise InvalidArgumentError(f"{name} must be a dict, not {shown(value)}")
-    return Said(result.get("camera"), labels, dict(bytes_of(key, files[key]) for key in files))
+    moves = result.get("next"), result.get("previous")
+    for name, move in zip(("next", "previous"), moves, strict=True):
+        if move is not None and not callable(move):
+            raise InvalidArgumentError(f"{name} must be a function, not {shown(move)}")
+    by_end = dict(bytes_of(key, files[key]) for key in files)
+    return Said(result.get("camera"), labels, by_end, *moves)

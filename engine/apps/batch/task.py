@@ -25,6 +25,7 @@ from ...rendering.frame import OUTPUTS
 from ...rendering.options import RenderOptions
 from ...stage.look import LOOK_CHOICES
 from ...version import __version__
+from ..datasets.measured import checked_outputs
 from ..datasets.writer import DatasetWriter
 from .cameras import check_camera
 from .members import member
@@ -73,7 +74,8 @@ class Task:
         ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as in `Scene`.
     outputs : sequence of str
         Files to write without a data set: ``"color"`` (a PNG) or, in another format,
-        ``"color.jpg"``; other outputs of frames are written as ``NAME.OUTPUT.npy``.
+        ``"color.jpg"``; other outputs of frames are written as ``NAME.OUTPUT.npy`` or, such as
+        ``"depth.pfm"``, in another format of `engine3d.sensors.save_values`.
     seed : int
         Seed of the script's generator.
     inputs : sequence of str
@@ -302,9 +304,10 @@ def _outputs(value: Any) -> tuple[str, ...]:
 def _check_output(name: str) -> None:
     output, _, suffix = name.partition(".")
     choose(output, OUTPUTS, "outputs")
-    if suffix:
-        formats = get_args(ImageFormat) if output == "color" else ("npy",)
-        choose(suffix, formats, f"outputs: the format of {output}")
+    if suffix and output == "color":
+        choose(suffix, get_args(ImageFormat), "outputs: the format of color")
+    elif suffix:
+        checked_outputs([name], None)
 
 
 _CHECKS = {

@@ -17,8 +17,9 @@ from pathlib import Path
 
 from ..._native import rasterizer
 from ...base.system import usable_processors
+from ...base.thread_count import resolve_threads
 from ...errors import DisplayError, Engine3DError
-from ...rendering.backend_selection import backends, resolve_backend, resolve_threads
+from ...rendering.backend_selection import backends, resolve_backend
 from ...version import __version__
 from ..bench.figures import machine
 from ..viewer.sdl import find_screen, load_sdl

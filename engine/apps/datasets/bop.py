@@ -2,7 +2,8 @@
 
 Out: ``SPLIT/SCENE/rgb/IMAGE.png``, ``depth`` of 16 bits, ``mask`` and ``mask_visib``, one for each
 thing, and for each scene ``scene_camera.json``, ``scene_gt.json`` and ``scene_gt_info.json``;
-``camera.json``, and ``models`` where all things of a category have one shape (`bop_models`).
+``camera.json``, and ``models`` where all things of a category have one shape (`bop_models`);
+``README.txt``.
 Cameras look along +Z with +Y down, lengths are millimetres, the centre of the top left pixel is
 (0, 0). A thing's mask is what it would show alone; counts and boxes of its silhouette reach beyond
 the picture, to three times its size. Widths of boxes are, as bop_toolkit has them, the distance of
@@ -14,7 +15,7 @@ is visible is exact here, and needs no tolerance.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -29,7 +30,9 @@ from ...base.numbers import shown
 from ...base.validation import positive
 from ...errors import InvalidArgumentError
 from .bop_models import has_shapes, shape_name, shape_of, write_models
+from .bop_symmetries import checked_symmetries
 from .opencv_cameras import cv_from_camera, intrinsics_of, rigid_parts
+from .readme import write_readme
 from .samples import Sample, Thing, box_of
 from .silhouettes import Silhouette, silhouette_of
 from .writer import (
@@ -96,6 +99,10 @@ class BopWriter(DatasetWriter):
         Millimetres of one step of the depth pictures, which reach to 65,535 steps.
     millimetres : float
         How long the scene's own unit is; 1000 where scenes are in metres.
+    symmetries : mapping of str to mapping, optional
+        Of categories, in the words of models_info.json: ``symmetries_discrete``, a list of 4x4
+        matrices of 16 numbers, row by row, and ``symmetries_continuous``, a list of objects with an
+        ``axis`` and an ``offset``, three numbers each; in millimetres and the model's coordinates.
 
     Raises
     ------
@@ -113,6 +120,7 @@ class BopWriter(DatasetWriter):
         scene_size: int = 1000,
         depth_scale: float = 1.0,
         millimetres: float = 1000.0,
+        symmetries: Mapping[str, Mapping[str, Any]] | None = None,
     ) -> None:
         if not (isinstance(split, str) and split.isidentifier()):
             raise InvalidArgumentError(f"split must be a name like train_pbr, not {shown(split)}")
@@ -123,6 +131,9 @@ class BopWriter(DatasetWriter):
         self.scene_size = scene_size
         self.depth_scale = positive(depth_scale, "depth_scale")
         self.millimetres = positive(millimetres, "millimetres")
+        self.symmetries = checked_symmetries({} if symmetries is None else symmetries)
+        for category in self.symmetries:
+            check_category(self.categories, category)
 
     @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
@@ -175,7 +186,17 @@ class BopWriter(DatasetWriter):
             for note in notes
             for (category, *_), shape in zip(note.said["truth"], note.said["shapes"], strict=True)
         )
-        yield from write_models(folder, numbers, shapes)
+        yield from write_models(folder, numbers, shapes, self.symmetries)
+        yield write_readme(folder, self._says())
+
+    def _says(self) -> Iterator[str]:
+        """Yield what the README says."""
+        yield "The format of the BOP benchmark, bop.felk.cvut.cz: lengths are in millimetres;"
+        yield "cameras look along +Z with +Y down; the centre of the top left pixel is (0, 0)."
+        yield f"{self.split}/SCENE/depth: depth along the camera's axis in steps of"
+        yield f"{self.depth_scale!r} mm (depth_scale of scene_camera.json); 0 = background."
+        yield "models, models_eval: the same shapes. models_info.json: diameters, boxes,"
+        yield "symmetries as they were told."
 
     def _place(self, index: int) -> tuple[str, int]:
         """Return the folder of a picture's scene, and its number there."""

@@ -2,9 +2,9 @@
 
 In: things of pictures, drawn by whichever process. Out: a shape for each thing, named by a hash of
 its geometry, so that each is written once, by whoever draws it first; at the end, where all things
-of a category have one shape, ``models/obj_NUMBER.ply`` and ``models_info.json``. Shapes have
-triangles and normals, in millimetres and the coordinates of the thing's node, but no colours: these
-may differ from picture to picture.
+of a category have one shape, ``obj_NUMBER.ply`` and ``models_info.json`` in ``models`` and
+``models_eval``. Shapes have triangles and normals, in millimetres and the coordinates of the
+thing's node, but no colours: these may differ from picture to picture.
 Source: docs/bop_datasets_format.md and scripts/calc_model_info.py of bop_toolkit, written anew.
 """
 
@@ -15,7 +15,8 @@ import hashlib
 import io
 import json
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,8 @@ from ...model.scene.nodes import Node
 from .samples import Thing
 from .writer import Shared
 
+#: Where models are written. What is evaluated is exactly what was drawn.
+_PLACES = "models", "models_eval"
 STORE = ".models"  # shapes by their hashes, which resumed batches rely on
 _HEXADECIMAL, _DIGITS = "0123456789abcdef", 32
 _SIZES = tuple(f"{what}_{axis}" for axis in "xyz" for what in ("min", "size"))
@@ -140,7 +143,10 @@ def _damaged(reason: str) -> None:
 
 
 def write_models(
-    folder: str, numbers: dict[str, int], shapes: Iterable[tuple[str, str | None]]
+    folder: str,
+    numbers: dict[str, int],
+    shapes: Iterable[tuple[str, str | None]],
+    symmetries: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
 ) -> Iterator[str]:
     """Write the models of categories; yield the paths of their files.
 
@@ -152,6 +158,8 @@ def write_models(
         ``obj_id`` of each category.
     shapes : iterable of (category, hash of a shape)
         Of all things in all pictures.
+    symmetries : mapping
+        Members of models_info.json, by category.
     """
     found: dict[str, set[str | None]] = {}
     for category, name in shapes:
@@ -166,13 +174,16 @@ def write_models(
         info = _info_of(f"{store}.json")
         if info is None:
             raise FileFormatError("damaged while the data set was made", f"{store}.json")
-        infos[str(number)] = info
+        infos[str(number)] = {**info, **symmetries.get(category, {})}
         with open(f"{store}.ply", "rb") as file:
-            yield _written(folder, f"models/obj_{number:06d}.ply", file.read())
+            model = file.read()
+        for place in _PLACES:
+            yield _written(folder, f"{place}/obj_{number:06d}.ply", model)
     if infos:
         lines = (f'  "{number}": {json.dumps(info)}' for number, info in infos.items())
         text = "{\n" + ",\n".join(lines) + "\n}\n"
-        yield _written(folder, "models/models_info.json", text.encode())
+        for place in _PLACES:
+            yield _written(folder, f"{place}/models_info.json", text.encode())
 
 
 def _warn_of_lacking(found: dict[str, set[str | None]]) -> None:

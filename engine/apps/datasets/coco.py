@@ -1,9 +1,9 @@
 """The COCO data set format: pictures, and one file of boxes, categories and masks.
 
 Out: ``images/NAME.png`` and ``annotations.json``, and other outputs that are asked for as
-``depth/NAME.npy`` …, which COCO's tools pass over. Each thing of which at least one pixel shows is
-an annotation: its mask as run lengths, its area in pixels, its box. A pixel belongs to what its
-sample near the centre shows: masks never overlap.
+``depth/NAME.npy`` …, and README.txt, which COCO's tools pass over. Each thing of which at least one
+pixel shows is an annotation: its mask as run lengths, its area in pixels, its box. A pixel belongs
+to what its sample near the centre shows: masks never overlap.
 Source: the format of COCO's object detection, cocodataset.org.
 """
 
@@ -15,9 +15,10 @@ from typing import Any
 from ...base.calls import checks_types
 from ...base.files import json_records as records
 from ...base.files.png import encode_pixels
+from ...base.validation import optional_positive
 from ...rendering.frame import Output
-from ...rendering.options import check_outputs
-from .folders import encoded
+from .measured import checked_outputs, described, encoded, frame_outputs
+from .readme import write_readme
 from .rle import encode_rle
 from .samples import Sample, box_of
 from .writer import (
@@ -30,6 +31,12 @@ from .writer import (
 )
 
 ANNOTATIONS = "annotations.json"
+_NEEDED: tuple[Output, ...] = ("color", "object_id")
+_SAYS = (
+    "images: the pictures.",
+    f"{ANNOTATIONS}: boxes (pixels, from the top left), areas and masks of COCO's format. A pixel "
+    "belongs to one thing. The format has no place for models: those of BOP have one.",
+)
 _SIZE = records.row(records.count, records.count)
 _MASK = records.members({"size": _SIZE, "counts": records.sound_text})
 _BOX = records.listed(records.count, 4)
@@ -45,7 +52,9 @@ class CocoWriter(DatasetWriter):
         The categories, numbered from 1 on in this order; others are errors. Left out, they are
         those that the pictures show, sorted by name.
     outputs : sequence of str
-        As of `Renderer.render`: those besides color get a folder each.
+        As of `FolderWriter`: those besides color get a folder each.
+    baseline : float, optional
+        As of `FolderWriter`.
 
     Raises
     ------
@@ -58,20 +67,20 @@ class CocoWriter(DatasetWriter):
     )
 
     def __init__(
-        self, categories: Sequence[str] | None = None, outputs: Sequence[Output] = ("color",)
+        self,
+        categories: Sequence[str] | None = None,
+        outputs: Sequence[str] = ("color",),
+        baseline: float | None = None,
     ) -> None:
         self.categories = checked_categories(categories)
-        self.written = check_outputs(outputs)
+        self.baseline = optional_positive(baseline, "baseline")
+        self.written = checked_outputs(outputs, self.baseline)
         # Annotations need these outputs in any case.
-        self.outputs = tuple(dict.fromkeys(("color", "object_id", *self.written)))
+        self.outputs = tuple(dict.fromkeys((*_NEEDED, *frame_outputs(self.written))))
 
     @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         files = {f"images/{sample.name}.png": encode_pixels(sample.frame.color[..., :3])}
-        for output in self.written:
-            if output != "color":
-                suffix, data = encoded(sample.frame, output)
-                files[f"{output}/{sample.name}.{suffix}"] = data
         found = []
         for thing in sample.things():
             check_category(self.categories, thing.category)
@@ -82,7 +91,14 @@ class CocoWriter(DatasetWriter):
                 box = list(box_of(mask))
                 found.append([thing.category, run_lengths, area, box])
         size = [sample.frame.width, sample.frame.height]
+        for output, suffix, data in encoded(sample, self._beside, self.baseline):
+            files[f"{output}/{sample.name}.{suffix}"] = data
         return files, {"size": size, "things": found}
+
+    @property
+    def _beside(self) -> list[str]:
+        """What is written beside COCO's own files."""
+        return [one for one in self.written if one != "color.png"]
 
     @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
@@ -98,6 +114,7 @@ class CocoWriter(DatasetWriter):
             parts.all(_annotations(notes, numbers))
             parts.text("}\n")
         yield ANNOTATIONS
+        yield write_readme(folder, [*_SAYS, *described(self._beside)], self.baseline)
 
 
 def _image(note: Note) -> dict[str, Any]:

@@ -1,12 +1,12 @@
 """The plain data set format: one folder for each output, and one list of contents.
 
 Out: ``color/NAME.png``, ``depth/NAME.npy`` and so on, and ``pictures.jsonl``: a line of JSON for
-each picture, with its camera, and of each thing its category, its id in ``object_id``, its place.
+each picture, with its camera, and of each thing its category, its id in ``object_id``, its place;
+``README.txt``, which says what all this is.
 """
 
 from __future__ import annotations
 
-import io
 import json
 import os
 from collections.abc import Iterable, Iterator, Sequence
@@ -18,12 +18,17 @@ from ...base.calls import checks_types
 from ...base.files import json_records as records
 from ...base.files.atomic_write import atomic_write
 from ...base.files.making_folders import make_folder_of
-from ...rendering.frame import Frame, Output
-from ...rendering.options import check_outputs
+from ...base.validation import optional_positive
+from .measured import checked_outputs, described, encoded, frame_outputs
+from .readme import write_readme
 from .samples import Sample
 from .writer import DatasetWriter, Note, compact
 
 PICTURES = "pictures.jsonl"
+_SAYS = (
+    f"{PICTURES}: a line of JSON for each picture: its files, its camera (world_from_camera, which "
+    "looks along -Z with +Y up; clip_from_camera) and its things, with their IDs in object_id.",
+)
 _MATRIX = records.listed(records.listed(records.number, 4), 4)
 _THING = {
     "category": records.sound_text,
@@ -44,7 +49,11 @@ class FolderWriter(DatasetWriter):
     Parameters
     ----------
     outputs : sequence of str
-        As of `Renderer.render`.
+        As of `Renderer.render`, and what is measured between two pictures, such as
+        ``"disparity"`` and ``"forward_flow"``: see docs/batches.md. A suffix names another format
+        than .npy: ``"depth.pfm"``.
+    baseline : float, optional
+        The distance of the right camera of a stereo pair, in world units.
 
     Raises
     ------
@@ -54,16 +63,22 @@ class FolderWriter(DatasetWriter):
     kind = "folders"
     note_shape = staticmethod(records.members(_NOTE))
 
-    def __init__(self, outputs: Sequence[Output] = ("color", "depth", "object_id")) -> None:
-        self.outputs = check_outputs(outputs)
+    def __init__(
+        self,
+        outputs: Sequence[str] = ("color", "depth", "object_id"),
+        baseline: float | None = None,
+    ) -> None:
+        self.baseline = optional_positive(baseline, "baseline")
+        self.written = checked_outputs(outputs, self.baseline)
+        self.outputs = frame_outputs(self.written)
 
     @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
-        files = {}
-        for output in self.outputs:
-            suffix, data = encoded(sample.frame, output)
-            files[f"{output}/{sample.name}.{suffix}"] = data
-        return files, said_of(sample)
+        said = said_of(sample)  # before the scene moves on
+        return {
+            f"{name}/{sample.name}.{suffix}": data
+            for name, suffix, data in encoded(sample, self.written, self.baseline)
+        }, said
 
     @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
@@ -74,15 +89,7 @@ class FolderWriter(DatasetWriter):
                 said = {"name": note.name, "files": note.files, **note.said}
                 file.write(f"{compact(said)}\n".encode())
         yield PICTURES
-
-
-def encoded(frame: Frame, output: Output) -> tuple[str, bytes]:
-    """Return the suffix and bytes of the file for an output."""
-    if output == "color":
-        return "png", frame.encode("png")
-    data = io.BytesIO()
-    np.save(data, getattr(frame, output))
-    return "npy", data.getvalue()
+        yield write_readme(folder, [*_SAYS, *described(self.written)], self.baseline)
 
 
 def said_of(sample: Sample) -> dict[str, Any]:

@@ -6,8 +6,9 @@ and boxes around masks.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 from ...rendering.options import RenderOptions
 from ...rendering.renderer import Renderer
+
+#: Moves a scene to another moment; returns the camera and its pose there, None for the same.
+Move: TypeAlias = Callable[[], tuple[Camera, NDArray[np.float64]] | None]
 
 
 @dataclass
@@ -48,6 +52,10 @@ class Sample:
     options : RenderOptions
         How it was drawn.
     seed : int
+    to_next, to_previous : callable, optional
+        Moves the scene to the next or previous picture's moment, for optical flow. Called without
+        arguments, perhaps one after the other; returns ``(camera, pose)``, or None where these stay
+        the same.
     """
 
     name: str
@@ -60,6 +68,8 @@ class Sample:
     labels: Mapping[Node, str] | None = None
     options: RenderOptions = field(default_factory=RenderOptions)
     seed: int = 0
+    to_next: Move | None = None
+    to_previous: Move | None = None
 
     def things(self) -> list[Thing]:
         """Return the labelled things, in order of node IDs.

@@ -21,14 +21,19 @@ from ...base.calls import checks_types
 from ...base.files import json_records as records
 from ...base.files.atomic_write import atomic_write, path_below
 from ...base.numbers import shown
+from ...base.validation import optional_positive
 from ...errors import InvalidArgumentError
-from ...rendering.frame import Output
-from ...rendering.options import check_outputs
-from .folders import encoded, json_line, said_of
+from .folders import json_line, said_of
+from .measured import checked_outputs, described, encoded, frame_outputs
+from .readme import write_readme
 from .samples import Sample
 from .writer import DatasetWriter, Note
 
 UNPACKED = "unpacked"
+_SAYS = (
+    "shard-*.tar: files of each picture under one key: KEY.png, KEY.OUTPUT.SUFFIX, and KEY.json: "
+    "its camera (world_from_camera, which looks along -Z with +Y up; clip_from_camera) and things.",
+)
 
 
 class WebDatasetWriter(DatasetWriter):
@@ -37,9 +42,11 @@ class WebDatasetWriter(DatasetWriter):
     Parameters
     ----------
     outputs : sequence of str
-        As of `Renderer.render`.
+        As of `FolderWriter`.
     shard : int
         Pictures in a tar file.
+    baseline : float, optional
+        As of `FolderWriter`.
 
     Raises
     ------
@@ -49,8 +56,15 @@ class WebDatasetWriter(DatasetWriter):
     kind = "webdataset"
     note_shape = staticmethod(records.one_of(None))
 
-    def __init__(self, outputs: Sequence[Output] = ("color",), shard: int = 1000) -> None:
-        self.outputs = check_outputs(outputs)
+    def __init__(
+        self,
+        outputs: Sequence[str] = ("color",),
+        shard: int = 1000,
+        baseline: float | None = None,
+    ) -> None:
+        self.baseline = optional_positive(baseline, "baseline")
+        self.written = checked_outputs(outputs, self.baseline)
+        self.outputs = frame_outputs(self.written)
         if isinstance(shard, bool) or not isinstance(shard, int) or shard < 1:
             raise InvalidArgumentError(f"shard must be a whole number above 0, not {shown(shard)}")
         self.shard = shard
@@ -58,12 +72,11 @@ class WebDatasetWriter(DatasetWriter):
     @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         key = f"{UNPACKED}/{sample.index:09d}"
+        said = json_line({"name": sample.name, **said_of(sample)})  # before the scene moves on
         files = {}
-        for output in self.outputs:
-            suffix, data = encoded(sample.frame, output)
+        for output, suffix, data in encoded(sample, self.written, self.baseline):
             files[f"{key}.{suffix if output == 'color' else f'{output}.{suffix}'}"] = data
-        files[f"{key}.json"] = json_line({"name": sample.name, **said_of(sample)})
-        return files, None
+        return {**files, f"{key}.json": said}, None
 
     @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
@@ -77,6 +90,7 @@ class WebDatasetWriter(DatasetWriter):
             yield self._pack(folder, shard)
         with contextlib.suppress(OSError):  # missing, or from newly added pictures
             os.rmdir(os.path.join(folder, UNPACKED))
+        yield write_readme(folder, [*_SAYS, *described(self.written)], self.baseline)
 
     @checks_types
     def beside(self, sample: Sample, end: str) -> str:

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..._native import rasterizer as _native
-from ...rendering.backend_selection import resolve_backend, resolve_threads
+from ...base.thread_count import resolve_threads
+from ...rendering.backend_selection import resolve_backend
 from ._resting import Surfaces
 from ._view import View
 

@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..._native import rasterizer as _native
-from ...rendering.backend_selection import resolve_backend, resolve_threads
+from ...base.thread_count import resolve_threads
+from ...rendering.backend_selection import resolve_backend
 from ._view import Region
 
 _SLACK = 0.002  # of the scene's depth: what counts as the same depth everywhere

@@ -16,6 +16,7 @@ from ...base import linalg
 from ...base.calls import shows_annotations
 from ...base.foreign_names import refuses_foreign_names
 from ...base.numbers import floats
+from ...base.thread_count import resolve_threads
 from ...base.validation import choose, how_far, vector3
 from ...errors import InvalidArgumentError
 from ..scene.nodes import Node
@@ -130,12 +131,12 @@ def _cast(
     directions = np.ascontiguousarray(linalg.normalize(directions))
     ids = np.empty((len(origins), 3), np.int32)
     values = np.empty((len(origins), 10))
-    done, missing = 0, 0
-    while missing >= 0:
-        done, missing = scene.data.arrays.cast(
-            objects.shapes, origins, directions, max_distance, number, ids, values, done
-        )
-        if missing >= 0:
+    lacks = np.zeros(len(origins), np.int32)
+    cast, threads = scene.data.arrays.cast, resolve_threads()
+    while not cast(
+        objects.shapes, origins, directions, max_distance, number, ids, values, lacks, threads
+    ):
+        for missing in np.unique(lacks[lacks >= 0]).tolist():
             tell(objects.shapes, missing, objects.objects[missing])
     return ids, values
 

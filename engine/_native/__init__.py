@@ -20,6 +20,7 @@ MODULES = (
     *(
         "canvas",
         "images",
+        "lens",
         "loaders",
         "mujoco",
         "navigation",

@@ -31,6 +31,7 @@ from .errors import Engine3DWarning as Engine3DWarning
 from .errors import FileAccessError as FileAccessError
 from .errors import FileFormatError as FileFormatError
 from .errors import InvalidArgumentError as InvalidArgumentError
+from .io.camera_files import load_camera as load_camera
 from .io.loaders import load_mesh as load_mesh
 from .io.loaders import load_texture as load_texture
 from .io.output.animation_saving import save_animation as save_animation
@@ -63,6 +64,11 @@ from .model.scene.fog import ExponentialFog as ExponentialFog
 from .model.scene.fog import Fog as Fog
 from .model.scene.gradients import Gradient as Gradient
 from .model.scene.instances import InstancedMesh as InstancedMesh
+from .model.scene.lenses.brown_conrady_camera import BrownConradyCamera as BrownConradyCamera
+from .model.scene.lenses.double_sphere_camera import DoubleSphereCamera as DoubleSphereCamera
+from .model.scene.lenses.fisheye_camera import FisheyeCamera as FisheyeCamera
+from .model.scene.lenses.panorama_cameras import CylindricalCamera as CylindricalCamera
+from .model.scene.lenses.panorama_cameras import EquirectangularCamera as EquirectangularCamera
 from .model.scene.lights import DirectionalLight as DirectionalLight
 from .model.scene.lights import PointLight as PointLight
 from .model.scene.lights import SpotLight as SpotLight

@@ -185,6 +185,9 @@ typedef struct e3d_rays {
 /* Casts those that are not cast yet; returns whether all are now. The number of threads doesn't change the result. */
 int e3d_graph_rays(const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes, int32_t shape_count,
                    const e3d_rays *rays, int threads);
+/* The same for what one node shows; nothing where its shape is missing. */
+void e3d_node_ray(const e3d_graph *graph, const e3d_shape *shapes, int32_t shape_count, int32_t slot,
+                  const double origin[3], const double direction[3], double farthest, e3d_hit *hit);
 /* The same for one shape without instances, at the pose `world`; its slot is 0. */
 void e3d_shape_ray(const e3d_shape *shape, const double world[12], const double origin[3],
                    const double direction[3], double farthest, e3d_cull cull, e3d_hit *hit);

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/fpenv.h"
+#include "scene/crossing.h"
 #include "scene/pose.h"
 #include "scene/tree.h"
 
@@ -28,6 +29,7 @@ typedef struct search {
     int32_t shape_count;
     int cull;
     ray ray; /* in the world */
+    e3d_aim aim;
     double world[12];
     int32_t slot, instance, missing;
     const e3d_shape *shape;
@@ -127,7 +129,7 @@ static void cross(const double a[3], const double b[3], double out[3])
         out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-static double dot(const double a[3], const double b[3]) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+#define dot e3d_dot3
 
 static double determinant(const double m[12])
 {
@@ -139,11 +141,7 @@ static double determinant(const double m[12])
 
 static void corner_of(const search *s, int32_t face, int corner, double out[3])
 {
-    const float *p = s->shape->positions + 3 * (size_t)s->shape->faces[3 * (size_t)face + corner];
-    for (int r = 0; r < 3; r++) {
-        const double *m = s->world + 4 * r;
-        out[r] = ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3];
-    }
+    e3d_place_corner(s->shape, s->world, face, corner, out);
 }
 
 static int comes_first(const search *s, int32_t face, double distance)
@@ -177,34 +175,17 @@ static void normal_of(const search *s, double corners[3][3], double out[3])
 
 static void meet_triangle(search *s, int32_t face)
 {
-    double corners[3][3], from[3][3], flat[3][2], weight[3], sum, place[3], normal[3];
-    const double *d = s->ray.direction;
-    int along = fabs(d[1]) > fabs(d[0]) ? 1 : 0;
-    along = fabs(d[2]) > fabs(d[along]) ? 2 : along;
-    int across = (along + 1) % 3, upward = (along + 2) % 3;
-    for (int i = 0; i < 3; i++) {
+    double corners[3][3], normal[3];
+    e3d_crossing at;
+    for (int i = 0; i < 3; i++)
         corner_of(s, face, i, corners[i]);
-        for (int k = 0; k < 3; k++)
-            from[i][k] = corners[i][k] - s->ray.origin[k];
-        flat[i][0] = from[i][across] - d[across] / d[along] * from[i][along];
-        flat[i][1] = from[i][upward] - d[upward] / d[along] * from[i][along];
-    }
-    for (int i = 0; i < 3; i++) {
-        const double *one = flat[(i + 1) % 3], *two = flat[(i + 2) % 3];
-        weight[i] = one[0] * two[1] - one[1] * two[0];
-    }
-    int plus = weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0;
-    int minus = weight[0] <= 0 && weight[1] <= 0 && weight[2] <= 0;
-    sum = (weight[0] + weight[1]) + weight[2];
-    if (!(plus || minus) || sum == 0)
+    if (!e3d_cross_triangle(&s->aim, corners, &at))
         return;
-    for (int k = 0; k < 3; k++)
-        place[k] = ((weight[0] * from[0][k] + weight[1] * from[1][k]) + weight[2] * from[2][k]) / sum;
-    double distance = dot(place, d);
+    double distance = at.distance;
     if (!(distance >= 0 && distance <= s->hit->distance) || !comes_first(s, face, distance))
         return;
     normal_of(s, corners, normal);
-    int front = dot(normal, d) < 0;
+    int front = dot(normal, s->ray.direction) < 0;
     if ((s->cull == E3D_CULL_BACK && !front) || (s->cull == E3D_CULL_FRONT && front))
         return;
     e3d_hit *h = s->hit;
@@ -213,9 +194,9 @@ static void meet_triangle(search *s, int32_t face)
     h->face = face;
     h->distance = distance;
     for (int k = 0; k < 3; k++) {
-        h->position[k] = s->ray.origin[k] + place[k];
+        h->position[k] = s->ray.origin[k] + at.place[k];
         h->normal[k] = normal[k];
-        h->barycentric[k] = weight[k] / sum;
+        h->barycentric[k] = at.weight[k] / at.sum;
     }
 }
 
@@ -295,6 +276,7 @@ int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_sh
                 .shape_count = shape_count,
                 .cull = cull,
                 .ray = make_ray(origin, direction),
+                .aim = e3d_aim_of(origin, direction),
                 .missing = -1,
                 .hit = hit};
     *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
@@ -303,11 +285,32 @@ int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_sh
     return s.missing;
 }
 
+void e3d_node_ray(const e3d_graph *graph, const e3d_shape *shapes, int32_t shape_count, int32_t slot,
+                  const double origin[3], const double direction[3], double farthest, e3d_hit *hit)
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    search s = {.graph = graph,
+                .shapes = shapes,
+                .shape_count = shape_count,
+                .cull = E3D_CULL_NONE,
+                .ray = make_ray(origin, direction),
+                .aim = e3d_aim_of(origin, direction),
+                .missing = -1,
+                .hit = hit};
+    *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
+    meet_node(&s, slot);
+    e3d_fpenv_leave(saved);
+}
+
 void e3d_shape_ray(const e3d_shape *shape, const double world[12], const double origin[3],
                    const double direction[3], double farthest, e3d_cull cull, e3d_hit *hit)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
-    search s = {.shape = shape, .cull = cull, .ray = make_ray(origin, direction), .hit = hit};
+    search s = {.shape = shape,
+                .cull = cull,
+                .ray = make_ray(origin, direction),
+                .aim = e3d_aim_of(origin, direction),
+                .hit = hit};
     for (int k = 0; k < 12; k++)
         s.world[k] = world[k];
     *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};

@@ -311,6 +311,28 @@ def mirrors() -> np.ndarray:
     return sheet(tiles, 2)
 
 
+def lenses() -> np.ndarray:
+    """The island from one place, through lenses of several kinds."""
+    scene = e3d.Scene(background=(140, 178, 214), ambient=(0.35, 0.37, 0.4))
+    scene.add(load("island.obj"))
+    sun = e3d.DirectionalLight((0.35, -1.0, -0.6), e3d.linear(1.0, 0.96, 0.9), 2.4)
+    sun.shadow = "exact"
+    scene.add(sun)
+    pose = e3d.look_at((0.5, 1.5, 2.2), (0.0, 1.2, 0.0))
+    size = (420, 320)
+    lens = {
+        "fisheye, 220 degrees": e3d.FisheyeCamera(
+            82, 82, 210, 160, (-0.01, 0.0, 0.0, 0.0), max_angle=math.radians(110)
+        ),
+        "equirectangular": e3d.EquirectangularCamera(),
+        "cylindrical, 200 degrees": e3d.CylindricalCamera(xfov=math.radians(200), yfov=1.6),
+        "pinhole": e3d.IntrinsicsCamera(230, 230, 210, 160),
+        "Brown-Conrady": e3d.BrownConradyCamera(230, 230, 210, 160, (-0.28, 0.08, 0.0, 0.0, 0.0)),
+        "double sphere": e3d.DoubleSphereCamera(130, 130, 210, 160, -0.2, 0.6),
+    }
+    return sheet([(name, draw(scene, (camera, pose), size)) for name, camera in lens.items()], 3)
+
+
 def viewer() -> np.ndarray:
     """What the viewer's window shows: a model with its edges, grid, axes, what the file holds."""
     settings = Settings(
@@ -461,6 +483,7 @@ PICTURES = {
     "materials": materials,
     "walls": walls,
     "mirrors": mirrors,
+    "lenses": lenses,
     "viewer": viewer,
     "city": city,
     "impostors": impostors,
@@ -473,7 +496,10 @@ PICTURES = {
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("beside_lines", "models", "mirrors", "sheet", "sensors", "city", "impostors", "robot", *gallery.programs())
+SMALL = (
+    *("beside_lines", "models", "mirrors", "lenses", "sheet", "sensors", "city", "impostors", "robot"),
+    *gallery.programs(),
+)
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 

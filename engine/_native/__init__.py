@@ -21,6 +21,7 @@ MODULES = (
         "canvas",
         "drawing",
         "images",
+        "lens",
         "loaders",
         "mujoco",
         "navigation",

@@ -61,14 +61,6 @@ cdef int32_t MOST_RAYS = 0x7FFFFF00  # a task has 256
 cdef class NativeGraph:
     """Nodes in slots 0, 1, 2 … of the attached arrays."""
 
-    cdef e3d_graph graph
-    cdef e3d_tree *tree
-    cdef int32_t room
-    cdef list held
-    cdef object anchored  # slots whose anchor is another
-    cdef public uint64_t changes
-    cdef readonly uint64_t updated, links
-
     def __dealloc__(self):
         e3d_tree_destroy(self.tree)
 

@@ -97,10 +97,6 @@ cdef int fill_triangles(
 cdef class NativeShapes:
     """What the objects of a scene are to rays, by number; each is known once it was asked for."""
 
-    cdef e3d_shape *shapes
-    cdef int32_t count
-    cdef list held
-
     def __cinit__(self, int32_t count):
         self.held = [None] * count
         self.count = count
@@ -135,3 +131,7 @@ cdef class NativeShapes:
             shape.poses = &poses[0, 0] if poses.shape[0] else NULL
             shape.instance_tree = instances.tree
         self.held[number] = (positions, faces, triangles, poses, instances)
+
+    def knows(self, int32_t number) -> bool:
+        """Return whether an object's triangles were told."""
+        return 0 <= number < self.count and self.shapes[number].known != 0

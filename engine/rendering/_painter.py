@@ -46,6 +46,7 @@ class Painter:
 
     Attributes
     ----------
+    how : How
     memory : FrameMemory
     native : NativeRenderer
     draw_list : DrawList
@@ -59,7 +60,7 @@ class Painter:
         self.draw_list = DrawList(color_space, threads)
         self.options = OptionsCache(color_space, threads)
         self.memory = FrameMemory(*samples, threads, around)
-        self._how, self._turn = how, turn
+        self.how, self._turn = how, turn
         self._pool = OutputPool()
         turn.hold(self.native)
         self.passes = Passes(
@@ -77,7 +78,7 @@ class Painter:
 
     def another(self) -> Painter:
         """Return a painter with one sample per pixel."""
-        return Painter(self._how._replace(samples=(1, 0)), self._turn, self.memory)
+        return Painter(self.how._replace(samples=(1, 0)), self._turn, self.memory)
 
     def look(
         self, scene: AnyScene, options: RenderOptions, listed: tuple[str, ...], shot: Shot

@@ -129,6 +129,25 @@ class View:
         middle = middle + forward * far_depth(self.camera)
         return (right * x + up * y) + middle
 
+    def world_rays(
+        self, pixels: ArrayLike, width: int, height: int
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the rays of places of the picture; see `Frame.rays`."""
+        places = as_vectors("pixels", pixels, 2)
+        across = 2.0 * places[..., :1] / width - 1.0
+        upward = 1.0 - 2.0 * places[..., 1:] / height
+        columns = linalg.inverse(self.clip_from_world).T
+        end = far_depth(self.camera)
+        near, within = (
+            across * columns[0] + upward * columns[1] + (columns[2] * z + columns[3])
+            for z in (-1.0, (end - 1.0) * 0.5)
+        )
+        near, within = near[..., :3] / near[..., 3:], within[..., :3] / within[..., 3:]
+        directions = linalg.normalize(within - near)
+        if self.eye[3]:
+            near = np.broadcast_to(np.array(self.eye[:3]), directions.shape).copy()
+        return near, directions
+
     def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
         """Return the range of metric depths of a world box, clipped to the camera's range."""
         sides = list(zip(*bounds.tolist(), strict=True))

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..errors import InvalidArgumentError
 from ..model.scene.cameras import Camera
+from ..model.scene.lenses.lens_camera import LensCamera
 from ..model.scene.staged_scene import AnyScene
+from ._lens_view import view_of
 from ._view import View
 from .camera_choice import CameraChoice, find_camera
 from .draw_list.draw_list import DrawList
@@ -36,7 +39,7 @@ class Viewpoint:
         chosen, pose = find_camera(scene, camera) or self._frame_scene(scene, width, height)
         view = self._view
         if view is None or not view.is_of(chosen, pose, width, height):
-            view = self._view = View(chosen, pose, width, height, view)
+            view = self._view = view_of(chosen, pose, width, height, view)
         return view
 
     def _frame_scene(self, scene: AnyScene, width: int, height: int) -> tuple[Camera, np.ndarray]:
@@ -55,4 +58,6 @@ def frustum_of(scene: AnyScene, camera: CameraChoice, width: int, height: int) -
     if camera is None:
         return None
     chosen, pose = find_camera(scene, camera)
+    if isinstance(chosen, LensCamera):
+        raise InvalidArgumentError("culling_camera must have a frustum, which no lens camera has")
     return View(chosen, pose, width, height).clip_from_world

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from ._view import View
     from .canvas import Canvas
+    from .lens.lens_stats import LensStats
 
 # What a frame may hold, for type checkers: colour, depths, what the core's modes show, and all that
 # the viewer shows besides. `Frame` has a property of each.
@@ -105,7 +106,8 @@ class Frame:
         ``triangles`` count the whole scene; with the suffix ``_in_frustum``, ``_unoccluded`` or
         ``_drawn``, what remains after each culling stage. ``boxes_tested`` counts the boxes tested
         for frustum culling when the view or the scene last changed: those of nodes and instances,
-        and those of tree branches.
+        and those of tree branches. Through a lens, counters and times are sums over ``lens_faces``
+        pinhole pictures, and ``lens_rays`` rays were cast into the scene.
     """
 
     color: _Output[np.uint8] = _Output(
@@ -172,7 +174,7 @@ class Frame:
         self.width, self.height = sides_of(size)
         self._stats: dict[str, Any] = {}
         # Until they are read: the number of nodes, and the core's counters.
-        self._drawn: tuple[int, _native.NativeStats] | None = None
+        self._drawn: tuple[int, _native.NativeStats | LensStats] | None = None
         # For picking: the view, and which faces were culled.
         self._seen: tuple[View, FrameCull] | None = None
         self._outputs = outputs
@@ -238,6 +240,34 @@ class Frame:
             The points have a wrong shape, or the frame was not drawn by a `Renderer`.
         """
         return view_of(self).project(points, self.width, self.height)
+
+    def rays(self, pixels: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the rays along which places of the picture look: the inverse of `project`.
+
+        Parameters
+        ----------
+        pixels : (2,) or (N, 2) float
+            Screen space, as `project` returns them; the centre of the top left pixel is (0.5, 0.5).
+
+        Returns
+        -------
+        origins : (3,) or (N, 3) float64
+            World space: the camera or, without perspective, points on its near plane.
+        directions : (3,) or (N, 3) float64
+            Unit vectors in world space; NaN where a lens sees nothing.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The pixels have a wrong shape, or the frame was not drawn by a `Renderer`.
+
+        Examples
+        --------
+        >>> hits = scene.raycast_many(*frame.rays([(320.5, 240.5), (10.5, 20.5)]))
+        """
+        if self._seen is None:
+            raise InvalidArgumentError("the frame was not drawn by a Renderer")
+        return self._seen[0].world_rays(pixels, self.width, self.height)
 
     def image(self) -> Image.Image:
         """Return the colour as a Pillow image (``PIL.Image.Image``, RGBA), a copy."""

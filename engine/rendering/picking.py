@@ -21,6 +21,7 @@ from ..model.scene.instances import InstancedMesh, instance_matrices
 from ..model.scene.nodes import Node
 from ..model.scene.shown import placing_pose, shown_object
 from ..model.spatial.rays import RayHit, raycast
+from ._lens_view import LensView
 from .frame import Frame
 
 _LAYERS = 256  # culled faces, one behind the other, that a pick passes through
@@ -41,7 +42,10 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
     x, y = int(x), int(y)
     if frame._seen is None:
         raise InvalidArgumentError("the frame was not drawn by a Renderer")
-    near, direction, length, eye = _pixel_ray(frame, x, y)
+    ray = _pixel_ray(frame, x, y)
+    if ray is None:  # outside of what a lens sees
+        return None
+    near, direction, length, eye = ray
     if not {"object_id", "instance_id", "face_id"} <= set(frame.outputs):
         return _from(eye, _drawn_hit(scene, near, direction, length, frame._seen[1]))
     number, face = int(frame.object_id[y, x]), int(frame.face_id[y, x])
@@ -66,6 +70,8 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
 def _pixel_ray(frame: Any, x: int, y: int) -> Any:
     """Return the ray through a pixel's centre from the near plane: origin, direction, length."""
     view, _ = frame._seen
+    if isinstance(view, LensView):
+        return _lens_ray(view, x + 0.5, y + 0.5)
     world_from_clip = linalg.inverse(view.clip_from_world)
     across = 2.0 * (x + 0.5) / frame.width - 1.0
     upward = 1.0 - 2.0 * (y + 0.5) / frame.height
@@ -75,6 +81,16 @@ def _pixel_ray(frame: Any, x: int, y: int) -> Any:
     direction = linalg.normalize(within - near)
     length = math.inf if far is None else float(linalg.dot(far - near, direction))
     return near, direction, length, view.eye
+
+
+def _lens_ray(view: LensView, x: float, y: float) -> Any:
+    """Return the same ray of a lens; its near and far planes are those of a cube's faces."""
+    direction = view.ray(x, y)
+    if direction is None:
+        return None
+    slope = float(np.abs(linalg.transform_directions(view.view_from_world, direction)).max())
+    near, far = view.camera.znear / slope, view.camera.zfar / slope
+    return np.array(view.eye[:3]) + direction * near, direction, far - near, view.eye
 
 
 def _unproject(world_from_clip: np.ndarray, x: float, y: float, z: float) -> Any:

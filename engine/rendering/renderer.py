@@ -19,14 +19,17 @@ from ..errors import InvalidArgumentError, SceneChangedError
 from ..model.materials.colors import COLOR_SPACES
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import AnyScene, StagedScene
-from ._output_pool import OutputPool
+from ._lens_view import LensView
+from ._output_pool import OutputPool, shapes_of
 from ._painter import How, Painter
 from ._turn import RendererTurn
+from ._view import View
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend
 from .camera_choice import CameraChoice
 from .draw_list.placement import Placing
 from .frame import Frame
+from .lens.lens_painter import LensPainter, Through
 from .options import OptionKeywords, RenderOptions, shows_options
 from .passes.protocol import Picture, Shot
 
@@ -105,6 +108,7 @@ class Renderer(Closed):
         per_pixel = _SAMPLES[antialiasing][samples]
         self._painter = Painter(How(number, threads, self._color_space, per_pixel), self._turn)
         self._viewpoint = Viewpoint(self._painter.draw_list)
+        self._lens: LensPainter | None = None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -147,6 +151,7 @@ class Renderer(Closed):
         with self._turn.taken(closing=True):
             # Nothing reads these again: `_check_drawable` refuses to draw.
             self._painter = self._viewpoint = None  # type: ignore[assignment]
+            self._lens = None
             self._turn.let_go()
             self._pool.forget()
 
@@ -154,6 +159,8 @@ class Renderer(Closed):
         self._pool.forget()
         if self._painter is not None:
             self._painter.passes.forget()
+        if self._lens is not None:
+            self._lens.forget()
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
@@ -271,11 +278,14 @@ class Renderer(Closed):
         """Draw a frame; the caller holds the turn."""
         outputs = tuple(options.outputs if out is None else self._check_out(out).outputs)
         passes = self._painter.passes
+        view = self._viewpoint.look(scene, camera, *self._size)
+        if isinstance(view, LensView):
+            return self._draw_through(scene, view, options, outputs, out, culling_camera)
         plan = passes.plan(options, outputs, self._size)
         frame = Frame(self._size, self._pool.take(plan.outputs)) if out is None else out
         census, reads_scene = scene.data.census(), True
         try:
-            picture = self._look(scene, camera, options, plan.listed, culling_camera)
+            picture = self._look(scene, view, options, plan.listed, culling_camera)
             picture.targets, picture.arrays = passes.arrays(plan, frame._outputs)
             for one in plan.passes:
                 reads_scene = "scene" in one.reads
@@ -289,16 +299,41 @@ class Renderer(Closed):
         frame._drawn = scene.data.node_count, picture.drawn
         return frame
 
+    def _draw_through(
+        self,
+        scene: AnyScene,
+        view: LensView,
+        options: RenderOptions,
+        outputs: tuple[str, ...],
+        out: Frame | None,
+        culling_camera: CameraChoice,
+    ) -> Frame:
+        """Draw a frame through a lens; the caller holds the turn."""
+        frozen = frustum_of(scene, culling_camera, *self._size)
+        if self._lens is None:
+            self._lens = LensPainter(self._painter.how, self._turn)
+        shapes = shapes_of(outputs, *self._size)
+        frame = Frame(self._size, self._pool.take(shapes)) if out is None else out
+        census = scene.data.census()
+        try:
+            through = Through(scene, options, view, self._size, frozen)
+            drawn = self._lens.draw(through, frame._outputs)
+        except Exception as error:
+            _blame_change(scene, census, error)
+            raise
+        frame._seen = view, "none" if options.cull == "auto" else options.cull
+        frame._drawn = scene.data.node_count, drawn
+        return frame
+
     def _look(
         self,
         scene: AnyScene,
-        camera: CameraChoice,
+        view: View,
         options: RenderOptions,
         listed: tuple[str, ...],
         culling_camera: CameraChoice,
     ) -> Picture:
         """Update the draw list, and return the picture that the passes start with."""
-        view = self._viewpoint.look(scene, camera, *self._size)
         frozen = frustum_of(scene, culling_camera, *self._size)
         shot = Shot(view, self._size, self.height, view.towards_viewer, frozen)
         return self._painter.look(scene, options, listed, shot)

@@ -19,6 +19,7 @@ from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material
 from ..model.scene.cameras import Camera
 from ..model.scene.instances import InstancedMesh
+from ..model.scene.lenses.lens_camera import LensCamera
 from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose, shown_object
@@ -192,6 +193,14 @@ def _is_one_place(points: np.ndarray) -> bool:
 
 def _of_place(sight: Sight, nodes: list[Node]) -> Reason | None:
     points, (width, height) = _points(sight, nodes), sight.size
+    if isinstance(sight.camera, LensCamera):
+        seen = linalg.transform_points(linalg.inverse(sight.pose), points)
+        pixels = sight.camera.project(seen, sight.size)
+        with np.errstate(invalid="ignore"):
+            inside = (pixels >= 0.0) & (pixels <= (width, height))
+        if not inside.all(axis=1).any():
+            return Reason("outside", "all of it is outside of the picture")
+        return None
     projection = np.array(sight.camera.projection((width, height)), np.float64)
     clip = linalg.multiply(projection, linalg.inverse(sight.pose))
     x, y, z, w = (linalg.dot(points, row[:3]) + row[3] for row in clip)

@@ -178,6 +178,16 @@ RIGHT: dict[str, Any] = {
     "load_mesh.path": OBJ,
     "load_scene.path": OBJ,
     "load_texture.path": PPM,
+    "load_camera.path": b'{"model": "PINHOLE", "params": [9, 9, 8, 6]}',
+    "K": [[9, 0, 8], [0, 9, 6], [0, 0, 1]],
+    **{
+        f"{camera}.rays.pixels": [(3.0, 4.0)]
+        for camera in (
+            *("Camera", "PerspectiveCamera", "OrthographicCamera", "IntrinsicsCamera"),
+            *("FisheyeCamera", "BrownConradyCamera", "DoubleSphereCamera"),
+            *("EquirectangularCamera", "CylindricalCamera", "Frame"),
+        )
+    },
     "loaders.load_document.path": OBJ,
     "batch.load_mesh.path": "there.obj",
     "batch.load_texture.path": "there.ppm",

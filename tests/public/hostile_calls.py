@@ -347,6 +347,26 @@ CALLS = {
         drawn_as(e3d.IntrinsicsCamera),
         {"fx": 9.0, "fy": 9.0, "cx": 8.0, "cy": 6.0, "znear": 0.1, "zfar": 9.0},
     ),
+    "FisheyeCamera": (
+        drawn_as(e3d.FisheyeCamera),
+        {"fx": 9.0, "fy": 9.0, "cx": 8.0, "cy": 6.0, "k": (0, 0, 0, 0), "max_angle": 1.0},
+    ),
+    "BrownConradyCamera": (
+        drawn_as(e3d.BrownConradyCamera),
+        {"fx": 9.0, "fy": 9.0, "cx": 8.0, "cy": 6.0, "distortion": (0, 0, 0, 0), "znear": 0.1},
+    ),
+    "DoubleSphereCamera": (
+        drawn_as(e3d.DoubleSphereCamera),
+        {"fx": 9.0, "fy": 9.0, "cx": 8.0, "cy": 6.0, "xi": 0.1, "alpha": 0.6, "zfar": 9.0},
+    ),
+    "EquirectangularCamera": (
+        drawn_as(e3d.EquirectangularCamera),
+        {"xfov": 1.0, "yfov": 1.0, "znear": 0.1, "zfar": 9.0},
+    ),
+    "CylindricalCamera": (
+        drawn_as(e3d.CylindricalCamera),
+        {"xfov": 1.0, "yfov": 1.0, "znear": 0.1, "zfar": 9.0},
+    ),
     "Camera": (drawn_as(e3d.Camera), {"projection": linalg.perspective(1.0, 1.0, 0.1, 9.0)}),
     "DirectionalLight": (
         drawn_as(e3d.DirectionalLight),

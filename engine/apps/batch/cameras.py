@@ -6,8 +6,9 @@ camera and its pose. Near and far planes enclose the scene where nothing else is
 - framed: ``azimuth_degrees``, ``elevation_degrees``, ``up``, ``yfov_degrees``, ``margin``: all of
   the scene shows;
 - placed: ``position``, ``target``, ``up``, and ``yfov_degrees`` or, without perspective,
-  ``height``;
-- posed: ``pose``, and ``yfov_degrees``, ``height`` or ``intrinsics``.
+  ``height``, or ``lens``;
+- posed: ``pose``, and ``yfov_degrees``, ``height``, ``intrinsics`` or ``lens``, a record as
+  `load_camera` reads it.
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ from ...base import linalg
 from ...base.numbers import shown
 from ...base.validation import finite, matrix4, positive, vector3
 from ...errors import InvalidArgumentError
+from ...io.camera_files import camera_of_record
 from ...model.scene.cameras import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
+from ...model.scene.lenses.lens_camera import LensCamera
 from ...model.scene.nodes import check_pose
 from ...model.scene.orbiting import orbit_axes
 from ...model.scene.scene import Scene
@@ -31,8 +34,8 @@ from ...rendering.framing import frame_scene
 from .members import member
 
 _FRAMED = ("azimuth_degrees", "elevation_degrees", "up", "yfov_degrees", "margin")
-_PLACED = ("position", "target", "up", "yfov_degrees", "height", "near", "far")
-_POSED = ("pose", "yfov_degrees", "height", "intrinsics", "near", "far")
+_PLACED = ("position", "target", "up", "yfov_degrees", "height", "lens", "near", "far")
+_POSED = ("pose", "yfov_degrees", "height", "intrinsics", "lens", "near", "far")
 _INTRINSICS = ("fx", "fy", "cx", "cy")
 _YFOV = 50.0
 _UP = (0.0, 1.0, 0.0)
@@ -62,7 +65,7 @@ def check_camera(value: Any) -> int | dict[str, Any] | None:
                     f"camera: {key} is none of {', '.join(known)}, which go together"
                 )
             said[key] = _MEMBERS[key](one, f"camera: {key}")
-    lenses = [key for key in ("yfov_degrees", "height", "intrinsics") if key in said]
+    lenses = [key for key in ("yfov_degrees", "height", "intrinsics", "lens") if key in said]
     if len(lenses) > 1:
         raise InvalidArgumentError(f"camera: {' and '.join(lenses)} do not go together")
     return said
@@ -98,6 +101,12 @@ def _intrinsics(value: Any, what: str) -> dict[str, float]:
     return numbers
 
 
+def _lens_record(value: Any, what: str) -> dict[str, Any]:
+    if not isinstance(camera_of_record(value, what), LensCamera | IntrinsicsCamera):
+        raise InvalidArgumentError(f"{what} must be of a lens, not {shown(value)}")
+    return dict(value)
+
+
 def _name(value: Any, what: str) -> str:
     if not (isinstance(value, str) and value):
         raise InvalidArgumentError(f"{what} must be a text, not {shown(value)}")
@@ -118,6 +127,7 @@ _MEMBERS = {
     "far": positive,
     "pose": _pose,
     "intrinsics": _intrinsics,
+    "lens": _lens_record,
 }
 
 
@@ -170,6 +180,12 @@ def _lens(said: Mapping[str, Any], scene: Scene, pose: NDArray[np.float64]) -> C
     """Return the projection, with near and far planes around the scene."""
     low, high = scene.bounds
     radius = _SLACK * float(linalg.length((high - low) * 0.5)) or 1.0
+    if "lens" in said:
+        away = float(linalg.length(pose[:3, 3] - (low + high) * 0.5))
+        far = said.get("far", away + radius)
+        lens: Any = camera_of_record(said["lens"], "camera: lens")
+        lens.znear, lens.zfar = said.get("near", _NEAREST * far), far
+        return lens
     away = float(linalg.dot(pose[:3, 3] - (low + high) * 0.5, pose[:3, 2]))
     far = said.get("far", max(away + radius, radius))
     near = said.get("near", max(away - radius, _NEAREST * far))

@@ -19,6 +19,9 @@ from ...base.files import json_records as records
 from ...base.files.atomic_write import atomic_write
 from ...base.files.making_folders import make_folder_of
 from ...base.validation import optional_positive
+from ...io.scenes.object_kinds import kind_of, values_of
+from ...model.scene.lenses.lens_camera import LensCamera
+from ...rendering.frame import Frame, Output
 from .measured import checked_outputs, described, encoded, frame_outputs
 from .readme import write_readme
 from .samples import Sample
@@ -38,7 +41,9 @@ _THING = {
 _NOTE = {
     "size": records.row(records.count, records.count),
     "seed": records.anything,
-    "camera": records.members({"world_from_camera": _MATRIX, "clip_from_camera": _MATRIX}),
+    "camera": records.members(
+        {"world_from_camera": _MATRIX}, {"clip_from_camera": _MATRIX, "lens": records.anything}
+    ),
     "things": records.listed(records.members(_THING)),
 }
 
@@ -94,13 +99,12 @@ class FolderWriter(DatasetWriter):
 
 def said_of(sample: Sample) -> dict[str, Any]:
     """Return the contents of a picture, in JSON types."""
-    projection = sample.camera.projection(sample.frame.size)
     return {
         "size": [sample.frame.width, sample.frame.height],
         "seed": sample.seed,
         "camera": {
             "world_from_camera": np.asarray(sample.pose).tolist(),
-            "clip_from_camera": np.asarray(projection).tolist(),
+            **_lens_of(sample),
         },
         "things": [
             {
@@ -111,6 +115,14 @@ def said_of(sample: Sample) -> dict[str, Any]:
             for thing in sample.things()
         ],
     }
+
+
+def _lens_of(sample: Sample) -> dict[str, Any]:
+    """Return the projection of a picture, or the record of its lens as scene files have it."""
+    camera = sample.camera
+    if isinstance(camera, LensCamera):
+        return {"lens": {"kind": kind_of(camera), **values_of(camera)}}
+    return {"clip_from_camera": np.asarray(camera.projection(sample.frame.size)).tolist()}
 
 
 def json_line(value: Any) -> bytes:

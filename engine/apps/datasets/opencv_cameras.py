@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...base import linalg
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import Camera
+from ...model.scene.lenses.lens_camera import LensCamera
 
 _FLIP = np.diag([1.0, -1.0, -1.0, 1.0])
 _ROUNDING = 1e-6
@@ -34,8 +35,13 @@ def intrinsics_of(camera: Camera, width: int, height: int) -> list[float]:
     Raises
     ------
     InvalidArgumentError
-        It has no perspective.
+        It has no perspective, or a lens.
     """
+    if isinstance(camera, LensCamera):
+        raise InvalidArgumentError(
+            f"a {type(camera).__name__} has no matrix K alone: BOP's pictures are those of pinhole "
+            "cameras"
+        )
     matrix = np.asarray(camera.projection((width, height)), np.float64)
     scale = -float(matrix[3, 2])
     if scale <= 0.0 or matrix[3, [0, 1, 3]].any() or matrix[:2, 3].any():

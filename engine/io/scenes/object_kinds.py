@@ -17,6 +17,10 @@ from ...model.materials.colors import is_8bit, linear_color, split_alpha
 from ...model.materials.linear_colors import LinearColor
 from ...model.scene.ambient_lights import HemisphereLight, LightProbe
 from ...model.scene.cameras import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
+from ...model.scene.lenses.brown_conrady_camera import BrownConradyCamera
+from ...model.scene.lenses.double_sphere_camera import DoubleSphereCamera
+from ...model.scene.lenses.fisheye_camera import FisheyeCamera
+from ...model.scene.lenses.panorama_cameras import CylindricalCamera, EquirectangularCamera
 from ...model.scene.lights import DIRECT_LIGHTS
 
 KINDS: dict[str, type] = {
@@ -26,6 +30,11 @@ KINDS: dict[str, type] = {
     "perspective camera": PerspectiveCamera,
     "orthographic camera": OrthographicCamera,
     "intrinsics camera": IntrinsicsCamera,
+    "fisheye camera": FisheyeCamera,
+    "brown-conrady camera": BrownConradyCamera,
+    "double-sphere camera": DoubleSphereCamera,
+    "equirectangular camera": EquirectangularCamera,
+    "cylindrical camera": CylindricalCamera,
     "camera": Camera,
 }
 _COLORS = {"ambient", "background", "bottom", "color", "emissive", "specular", "top"}

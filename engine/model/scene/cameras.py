@@ -9,6 +9,7 @@ the same bits on every machine.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...base import linalg
 from ...base.angles import field_of_view
 from ...base.calls import hinted
-from ...base.image_size import sides_of
+from ...base.image_size import check_size, sides_of
 from ...base.numbers import real, shown
 from ...base.validation import (
     CheckedAttribute,
@@ -32,9 +33,12 @@ from ...base.validation import (
     positive,
 )
 from ...errors import InvalidArgumentError
+from ._pinhole_pixels import directions_of, pixels_of
 
 #: Near planes below this belong to models that are too small for the usual clip space.
 _SMALL = 2.0**-18
+#: The size of a picture if nobody says another.
+PICTURE = (1280, 720)
 _MOST = 100  # the highest power of two by which matrices are scaled
 
 
@@ -43,7 +47,7 @@ def far_depth(camera: Camera) -> float:
     return 0.0 if isinstance(camera, PerspectiveCamera) and camera.reversed_depth else 1.0
 
 
-def _far(value: float | None, what: str) -> float:
+def far_distance(value: float | None, what: str) -> float:
     """Return the distance of a far plane: positive, or infinity for None."""
     if value is None:
         return math.inf
@@ -53,7 +57,8 @@ def _far(value: float | None, what: str) -> float:
     return number
 
 
-def _check_range(camera: PerspectiveCamera | OrthographicCamera | IntrinsicsCamera) -> None:
+def check_range(camera: Any) -> None:
+    """Raise an error unless a camera's near plane is nearer than its far plane."""
     if not camera.znear < camera.zfar:
         raise InvalidArgumentError(
             f"znear must be less than zfar: {camera.znear:g} and {camera.zfar:g}"
@@ -115,6 +120,54 @@ class Camera(Closed):
         _sides(size)
         return self.matrix
 
+    @hinted
+    def project(self, points: ArrayLike, size: tuple[int, int] = PICTURE) -> NDArray[np.float64]:
+        """Return the pixel positions of points.
+
+        Parameters
+        ----------
+        points : (3,) or (N, 3) float
+            Camera space: x to the right, y up, z back.
+        size : (int, int)
+            Width and height of the picture; cameras given in pixels have no use for it.
+
+        Returns
+        -------
+        pixels : (2,) or (N, 2) float64
+            x to the right and y down from the picture's top left corner; the centre of the top left
+            pixel is (0.5, 0.5). NaN for points that no pixel could show: behind the camera, or
+            beyond what a lens sees.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        sides = check_size(size)
+        return pixels_of(self.projection(sides), sides, points)
+
+    @hinted
+    def rays(self, pixels: ArrayLike, size: tuple[int, int] = PICTURE) -> NDArray[np.float64]:
+        """Return the directions in which pixels look: the inverse of `project`.
+
+        Parameters
+        ----------
+        pixels : (2,) or (N, 2) float
+        size : (int, int)
+            Width and height of the picture; cameras given in pixels have no use for it.
+
+        Returns
+        -------
+        directions : (3,) or (N, 3) float64
+            Unit vectors in camera space; NaN where a lens sees nothing. Rays begin at the camera;
+            without perspective, `Frame.rays` tells where they begin.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        sides = check_size(size)
+        return directions_of(self.projection(sides), sides, pixels)
+
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self._parameters()})"
 
@@ -156,17 +209,17 @@ class PerspectiveCamera(Camera):
         self.znear, self.zfar = znear, zfar
         self.aspect = aspect
         self.reversed_depth = reversed_depth
-        _check_range(self)
+        check_range(self)
 
     yfov: NumberAttribute = CheckedAttribute(field_of_view)
     znear: NumberAttribute = CheckedAttribute(positive)
-    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
+    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(far_distance)
     aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
     reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(flag)
 
     @hinted
     def projection(self, size: tuple[int, int]) -> NDArray[np.float64]:
-        _check_range(self)
+        check_range(self)
         width, height = _sides(size)
         aspect = width / height if self.aspect is None else self.aspect
         matrix = linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
@@ -209,7 +262,7 @@ class OrthographicCamera(Camera):
         self.ymag = ymag
         self.xmag = xmag
         self.znear, self.zfar = znear, zfar
-        _check_range(self)
+        check_range(self)
 
     ymag: NumberAttribute = CheckedAttribute(positive)
     xmag: OptionalNumberAttribute = CheckedAttribute(optional_positive)
@@ -218,7 +271,7 @@ class OrthographicCamera(Camera):
 
     @hinted
     def projection(self, size: tuple[int, int]) -> NDArray[np.float64]:
-        _check_range(self)
+        check_range(self)
         width, height = _sides(size)
         xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
         return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
@@ -263,18 +316,18 @@ class IntrinsicsCamera(Camera):
         self.fx, self.fy = fx, fy
         self.cx, self.cy = cx, cy
         self.znear, self.zfar = znear, zfar
-        _check_range(self)
+        check_range(self)
 
     fx: NumberAttribute = CheckedAttribute(positive)
     fy: NumberAttribute = CheckedAttribute(positive)
     cx: NumberAttribute = CheckedAttribute(finite)
     cy: NumberAttribute = CheckedAttribute(finite)
     znear: NumberAttribute = CheckedAttribute(positive)
-    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
+    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(far_distance)
 
     @hinted
     def projection(self, size: tuple[int, int]) -> NDArray[np.float64]:
-        _check_range(self)
+        check_range(self)
         # The depth rows are those of any perspective; only the pixel grid differs.
         width, height = _sides(size)
         matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._native.rasterizer import CULLS
+from ..._native.scene_graph import SHOWN, NativeShapes
 from ...base import linalg
 from ...base.calls import shows_annotations
 from ...base.foreign_names import refuses_foreign_names
@@ -20,6 +21,7 @@ from ...base.thread_count import resolve_threads
 from ...base.validation import choose, how_far, vector3
 from ...errors import InvalidArgumentError
 from ..scene.nodes import Node
+from ..scene.scene_data import SceneData
 from ._shapes import tell
 
 
@@ -116,6 +118,18 @@ def raycast_many(
     position, normal, barycentric = (part.copy() for part in parts)
     distance = values[:, 0].copy()
     return RayHits(object_id, instance, face, distance, position, normal, barycentric)
+
+
+def known_shapes(data: SceneData) -> NativeShapes:
+    """Return the shapes of a scene's objects, all of which are told that show."""
+    data.update()
+    table, columns = data.objects, data.arrays.columns
+    count = data.arrays.count
+    shown = (columns["flags"][:count] & SHOWN) != 0
+    for number in np.unique(columns["object"][:count][shown]).tolist():
+        if number >= 0 and not table.shapes.knows(number):
+            tell(table.shapes, number, table.objects[number])
+    return table.shapes
 
 
 def _cast(

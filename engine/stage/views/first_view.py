@@ -5,7 +5,8 @@ from __future__ import annotations
 import functools
 from dataclasses import dataclass
 
-from ...model.scene.cameras import Camera
+from ...model.scene.cameras import Camera, IntrinsicsCamera
+from ...model.scene.lenses.lens_camera import LensCamera
 from ...model.scene.nodes import Node
 from ..near_origin import from_file
 from ..view_renderer import ViewRenderer
@@ -34,6 +35,8 @@ class FirstView:
         View direction, and up direction in the picture; a position overrides the view direction.
     camera : int or None
         The model's camera to look through; overrides all other settings.
+    lens : LensCamera, IntrinsicsCamera or None
+        What to look through instead of a pinhole.
     """
 
     yfov: float | None = None
@@ -46,6 +49,7 @@ class FirstView:
     direction: Vector | None = None
     up: Vector | None = None
     camera: int | None = None
+    lens: LensCamera | IntrinsicsCamera | None = None
 
     def place(self, view_renderer: ViewRenderer, *, turns: bool = True) -> Viewpoint:
         """Return the view of a renderer's scene.
@@ -63,7 +67,7 @@ class FirstView:
             There is no such camera.
         """
         view = view_renderer.view(self.yfov)
-        view.orthographic = self.orthographic
+        view.orthographic, view.lens = self.orthographic, self.lens
         if self.camera is not None:
             look_through(view, _camera_node(view_renderer, self.camera), view_renderer.bounds)
             return view

@@ -8,22 +8,27 @@ is computed from the angles: see `engine3d.model.scene.orbiting`.
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base import linalg
 from ...errors import InvalidArgumentError
-from ...model.scene.cameras import OrthographicCamera, PerspectiveCamera
+from ...model.scene.cameras import IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
+from ...model.scene.lenses.lens_camera import LensCamera
 from ...model.scene.nodes import Node
 from ...model.scene.orbiting import home_axes, orbit_axes
 from ...rendering.framing import LENS, fit_frustum, frustum_reach
 from ...rendering.support_functions import SupportFunction, support_of_points
 from .free_region import NOTHING, Taken, sheared
 
+#: The cameras of views.
+ViewCamera: TypeAlias = PerspectiveCamera | OrthographicCamera | LensCamera | IntrinsicsCamera
+Lens = TypeVar("Lens", PerspectiveCamera, OrthographicCamera, ViewCamera)
 #: Values of ``up``, as on the command line.
 UP_DIRECTIONS = {
     "+X": (1.0, 0.0, 0.0),
@@ -47,6 +52,7 @@ SMALLEST = 0.01
 ROLLS = 1.0 - 1e-9
 #: Steeper than this from above or below, an upward step is hardly visible.
 STEEPEST = 1e-6
+_DIAGONAL = math.sqrt(3.0)  # of a cube, over its edge
 
 
 class Sphere(NamedTuple):
@@ -75,6 +81,8 @@ class Viewpoint:
         as a perspective one.
     orthographic : bool
         Whether the projection is parallel.
+    lens : LensCamera, IntrinsicsCamera or None
+        What to look through instead; `yfov` still decides where the camera stands.
     """
 
     target: np.ndarray
@@ -84,6 +92,7 @@ class Viewpoint:
     up: tuple[float, float, float] = UP_DIRECTIONS["+Y"]
     yfov: float = LENS
     orthographic: bool = False
+    lens: LensCamera | IntrinsicsCamera | None = None
 
     def copy(self) -> Viewpoint:
         """Return an independent copy."""
@@ -109,14 +118,14 @@ class Viewpoint:
         pose[:3, 3] = self.position()
         return pose
 
-    def camera(
-        self, bounds: Sphere, nearest: float = math.inf, free: float = 0.0
-    ) -> PerspectiveCamera | OrthographicCamera:
+    def camera(self, bounds: Sphere, nearest: float = math.inf, free: float = 0.0) -> ViewCamera:
         """Return a camera whose clip planes enclose ``bounds`` as seen from here.
 
         Inside the scene, the near plane is at most at ``nearest``, but no nearer than ``free``.
         """
         znear, zfar = clip_planes(self.position(), bounds, nearest, free)
+        if self.lens is not None:  # along the axes of a cube, what is near is nearer
+            return with_clip_planes(self.lens, znear / _DIAGONAL, zfar)
         if self.orthographic:
             ymag = self.distance * math.tan(self.yfov / 2)
             # points behind the camera show too
@@ -262,6 +271,7 @@ def look_through(view: Viewpoint, node: Node, bounds: Sphere) -> None:
         view.up = tuple(own.tolist())
         view.look_from(eye, target)
     view.orthographic = isinstance(camera, OrthographicCamera)
+    view.lens = camera if isinstance(camera, LensCamera) else None
     if isinstance(camera, OrthographicCamera):
         view.distance = camera.ymag / math.tan(view.yfov / 2)
 
@@ -277,9 +287,7 @@ def clip_planes(
     return znear, zfar
 
 
-def with_clip_planes(
-    camera: PerspectiveCamera | OrthographicCamera, near: float | None, far: float | None
-) -> PerspectiveCamera | OrthographicCamera:
+def with_clip_planes(camera: Lens, near: float | None, far: float | None) -> Lens:
     """Return a camera with given clip planes, at distances from it; None keeps its own.
 
     Raises
@@ -294,9 +302,9 @@ def with_clip_planes(
         raise InvalidArgumentError(
             f"the near plane ({near:g}) must be nearer than the far one ({far:g})"
         )
-    if isinstance(camera, OrthographicCamera):
-        return OrthographicCamera(camera.ymag, znear=near, zfar=far)
-    return PerspectiveCamera(camera.yfov, znear=near, zfar=far)
+    other = copy.copy(camera)
+    other.znear, other.zfar = near, far
+    return other
 
 
 def _dot(a: np.ndarray, b: np.ndarray) -> float:

@@ -79,6 +79,12 @@ def add_camera(parser) -> None:
     group.add_argument(
         "--camera-orthographic", action="store_true", help="use a parallel projection"
     )
+    group.add_argument(
+        "--camera-lens",
+        metavar="FILE",
+        help="look through the lens of a calibration: JSON of ROS, nerfstudio, COLMAP or a scene "
+        "file, or COLMAP's cameras.txt",
+    )
     for plane in ("near", "far"):
         group.add_argument(
             f"--{plane}",
@@ -86,6 +92,20 @@ def add_camera(parser) -> None:
             metavar="D",
             help=f"distance of the {plane} clip plane; by default it encloses what is shown",
         )
+
+
+def _lens(path: str | None):
+    """Return the lens that a file describes; None for no file."""
+    if path is None:
+        return None
+    from ....io.camera_files import load_camera
+    from ....model.scene.cameras import IntrinsicsCamera
+    from ....model.scene.lenses.lens_camera import LensCamera
+
+    camera = load_camera(path)
+    if not isinstance(camera, LensCamera | IntrinsicsCamera):
+        raise UsageError(f"--camera-lens: {path} holds no lens, but a {type(camera).__name__}")
+    return camera
 
 
 def first_view(args: argparse.Namespace) -> FirstView:
@@ -107,4 +127,5 @@ def first_view(args: argparse.Namespace) -> FirstView:
         direction=args.camera_direction,
         up=args.camera_view_up,
         camera=index if through else None,
+        lens=_lens(args.camera_lens),
     )

@@ -1,0 +1,1 @@
+"""Cameras whose pictures are no pinhole's: fisheyes, distorted lenses, panoramas."""

@@ -1,0 +1,1 @@
+"""Pictures through lenses, looked up in the pinhole pictures around them."""

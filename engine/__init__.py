@@ -78,8 +78,8 @@ _PUBLIC = {
 }
 _MODULES = (
     *("batch", "choices", "colliders", "datasets", "detail", "errors", "events", "lights"),
-    *("linalg", "loaders", "motion", "navigation", "plugins", "primitives", "rasterization"),
-    *("resources", "sheets", "worlds"),
+    *("linalg", "loaders", "measuring", "motion", "navigation", "plugins", "primitives"),
+    *("rasterization", "resources", "sheets", "worlds"),
 )
 
 # Modules with optional dependencies or few users: not for ``import *``.

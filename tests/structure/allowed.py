@@ -3,8 +3,9 @@
 Where a breach is to stay, a comment says why.
 """
 
-# Keywords are what users write. Those of compat.pyrender are pyrender's own.
+# Keywords are what users and agents write. Those of compat.pyrender are pyrender's own.
 LONG_SIGNATURES = (
+    "apps.agents.tools.render",
     "apps.batch.running.run",
     "apps.sheet.contact_sheet.contact_sheet",
     "compat.pyrender.material.__init__",

@@ -1,0 +1,95 @@
+"""Names and highlights over an agent's picture.
+
+In: a frame with IDs, and what its nodes are. Out: the same pixels, drawn on.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...base.numbers import shown
+from ...errors import InvalidArgumentError
+from ...rendering.canvas import text_size
+from ...rendering.frame import Frame
+from ...stage.overlays.selection_outline import OUTLINE, outline_pixels
+from ...stage.overlays.theme import LIGHT
+from ...stage.visibility import mesh_of
+from .shown_scene import Shown
+from .things import Things
+
+#: Names of more parts would cover the picture.
+MOST_LABELS = 24
+#: How much of a highlight's colour is over the surface.
+_TINT = 0.45
+_GAP = 3
+_KEYS = ("object", "faces")
+
+
+def draw_highlights(frame: Frame, shown_: Shown, things: Things, highlights: Any) -> None:
+    """Tint and outline objects, or some of their faces.
+
+    Parameters
+    ----------
+    frame : Frame
+    shown_ : Shown
+    things : Things
+    highlights : list of dict
+        ``object``: a name; ``faces``: numbers of triangles, all by default.
+
+    Raises
+    ------
+    InvalidArgumentError
+        There is no such object or face.
+    """
+    for entry in highlights:
+        if not isinstance(entry, dict) or "object" not in entry or not set(entry) <= set(_KEYS):
+            raise InvalidArgumentError(
+                f'highlight must be like {{"object": "box", "faces": [0]}}, not {shown(entry)}'
+            )
+        parts = things.find(entry["object"], "highlight")
+        inside = np.isin(frame.object_id, [node.id for node in shown_.nodes_of(parts)])
+        faces = entry.get("faces") or []
+        if faces:
+            _check_faces(faces, max(len(mesh_of(part.drawn).faces) for _, part in parts))
+            inside &= np.isin(frame.face_id, faces)
+        tinted = frame.color[inside, :3] * (1.0 - _TINT) + np.array(OUTLINE[:3]) * _TINT
+        frame.color[inside, :3] = (tinted + 0.5).astype(np.uint8)
+        outline_pixels(frame, inside)
+
+
+def _check_faces(faces: Any, count: int) -> None:
+    for face in faces:
+        if isinstance(face, bool) or not isinstance(face, int) or not 0 <= face < count:
+            raise InvalidArgumentError(
+                f"highlight: faces are numbers from 0 to {count - 1}, not {shown(face)}"
+            )
+
+
+def draw_names(frame: Frame, shown_: Shown) -> None:
+    """Write the names of the largest visible parts on them, so that none covers another."""
+    canvas, taken = frame.canvas(), []
+    scale = 2 if frame.height >= 900 else 1
+    for name, counted in shown_.visible(frame)[:MOST_LABELS]:
+        x, y, width, height = counted.box
+        wide, high = text_size(name, scale)
+        left = min(max(x + (width - wide) // 2, _GAP), max(frame.width - wide - _GAP, _GAP))
+        top = _free_row(y + (height - high) // 2, left, wide, high, taken, frame.height)
+        taken.append((left, top, wide, high))
+        canvas.text(left, top, name, LIGHT.text, scale=scale, background=LIGHT.block)
+
+
+def _free_row(wanted: int, left: int, wide: int, high: int, taken: list[Any], rows: int) -> int:
+    """Return the row nearest to the one wanted where a text covers no other."""
+    step = high + 2 * _GAP
+    for away in range(2 * (rows // step) + 2):
+        top = wanted + (away + 1) // 2 * step * (1 if away % 2 else -1)
+        if not _GAP <= top <= rows - high - _GAP:
+            continue
+        if not any(
+            left < x + w + _GAP and x < left + wide + _GAP and abs(top - y) < step
+            for x, y, w, _ in taken
+        ):
+            return top
+    return min(max(wanted, _GAP), rows - high - _GAP)

@@ -11,7 +11,6 @@ import time
 import pytest
 from agents.conftest import Agent, models
 
-import engine3d as e3d
 from engine3d.apps.agents.pictures import Request
 from engine3d.apps.cli import main
 from engine3d.model.scene.scene import Scene
@@ -103,8 +102,7 @@ def test_many_calls_do_not_grow(tmp_path):
 def test_a_missing_package_is_named(monkeypatch, tmp_path, capsys):
     for name in [name for name in sys.modules if name.startswith("engine3d.apps.agents.")]:
         monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "mcp", None)
-    monkeypatch.setitem(sys.modules, "mcp.server", None)
+    for name in ("mcp", "mcp.server", "mcp.server.mcpserver"):
+        monkeypatch.setitem(sys.modules, name, None)
     assert main(["mcp", "--root", str(tmp_path)]) == 1
     assert "pip install 'engine3d[mcp]'" in capsys.readouterr().err
-    assert e3d.__version__

@@ -199,7 +199,7 @@ def test_a_call_ends_when_its_time_is_over(tmp_path):
 
 def test_limits_of_size_hold(tmp_path):
     models(tmp_path)
-    small = Agent(tmp_path, most_triangles=1000, most_bytes=900)
+    small = Agent(tmp_path, most_triangles=1000, most_bytes=100)
     assert "larger than 0 MB" in small.error("load", path="three.e3d.json")
     agent = Agent(tmp_path, most_triangles=1000)
     assert "the limit is 1,000 (--max-triangles)" in agent.error("load", path="three.e3d.json")

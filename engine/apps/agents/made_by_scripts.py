@@ -104,4 +104,11 @@ def _as_one(things: list[tuple[str, Thing]], name: str) -> Thing:
             taken.add(parts[-1].name)
     first = things[0][1] if things else Thing(name, ())
     lights = tuple(light for _, thing in things for light in thing.lights)
-    return Thing(name, tuple(parts), lights, unit=first.unit, up=first.up)
+    return Thing(
+        name,
+        tuple(parts),
+        lights,
+        unit=first.unit,
+        up=first.up,
+        model_edges=bool(things) and all(thing.model_edges for _, thing in things),
+    )

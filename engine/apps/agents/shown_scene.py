@@ -86,6 +86,7 @@ def shown_scene(parts: list[tuple[Thing, Part]]) -> Shown:
         up=things[0].up if things else "+Y",
         themed=True,
         appearance={"cull": "auto"},
+        model_edges=bool(things) and all(thing.model_edges for thing in things),
         unit=things[0].unit if len({thing.unit for thing in things}) == 1 else "",
     )
     return Shown(moved_near(viewed), owners)

@@ -78,6 +78,8 @@ class Thing:
     up : str
         A key of `UP_DIRECTIONS`.
     warnings : tuple of str
+    model_edges : bool
+        As of `ViewedScene`.
     """
 
     name: str
@@ -88,6 +90,7 @@ class Thing:
     unit: str = ""
     up: str = "+Y"
     warnings: tuple[str, ...] = field(default=())
+    model_edges: bool = False
 
     @property
     def triangles(self) -> int:
@@ -121,6 +124,7 @@ def thing_of(viewed: ViewedScene, name: str, source: str = "") -> Thing:
         viewed.unit,
         viewed.up,
         tuple(printable(str(line)) for line in viewed.warnings),
+        viewed.model_edges,
     )
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+from dataclasses import replace
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
@@ -24,6 +25,9 @@ from digests import Digests
 
 import engine3d as e3d
 from engine3d import linalg
+from engine3d.apps.agents.pictures import Request
+from engine3d.apps.agents.server_limits import Limits
+from engine3d.apps.agents.session import Session
 from engine3d.apps.golden.comparison import compare
 from engine3d.apps.golden.difference_picture import difference_picture
 from engine3d.apps.scenes import load_demo
@@ -341,6 +345,27 @@ def contact_sheet() -> np.ndarray:
     return e3d.sheets.contact_sheet(train, sections="-y=50%", size=(1500, 900)).picture.pixels
 
 
+def agents() -> np.ndarray:
+    """What an agent gets by the tools of docs/agents.md."""
+    session = Session(Limits(root=str(MODELS)))
+    session.load("train.asc")
+    session.edit("train/Smoke", {"visible": False})
+    side = {"azimuth": 60, "elevation": 16}
+    requests = {
+        "render labels=true": Request(labels=True),
+        'section={"axis": "y"}': Request(view=side, section={"axis": "y"}),
+        'highlight=[{"object": "train/Boiler"}]': Request(
+            view=side, highlight=[{"object": "train/Boiler"}]
+        ),
+        'view="train/Cab" look="ids"': Request(view="train/Cab", look="ids"),
+    }
+    tiles = []
+    for caption, request in requests.items():
+        drawn = session.studio.draw(session.things, replace(request, size=[560, 400]))
+        tiles.append((caption, drawn.pixels))
+    return sheet(tiles, 2)
+
+
 def impostors() -> np.ndarray:
     """A field of teapots as meshes, and with impostors where nobody can tell."""
     mesh = load("teapot.obj")
@@ -396,10 +421,11 @@ PICTURES = {
     "impostors": impostors,
     "golden": golden,
     "sheet": contact_sheet,
+    "agents": agents,
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", "mirrors", "sheet", "city", "impostors", *gallery.programs())
+SMALL = ("models", "mirrors", "sheet", "agents", "city", "impostors", *gallery.programs())
 QUALITY = 82
 DIGESTS = Digests(FOLDER / "drawn.json")
 

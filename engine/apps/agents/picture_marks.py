@@ -68,28 +68,34 @@ def _check_faces(faces: Any, count: int) -> None:
 
 
 def draw_names(frame: Frame, shown_: Shown) -> None:
-    """Write the names of the largest visible parts on them, so that none covers another."""
-    canvas, taken = frame.canvas(), []
+    """Write the names of the largest visible parts on them.
+
+    A name stands within the box of its part and covers no other; where there is no room, it is
+    left out.
+    """
+    canvas = frame.canvas()
+    taken: list[tuple[int, int, int, int]] = []
     scale = 2 if frame.height >= 900 else 1
     for name, counted in shown_.visible(frame)[:MOST_LABELS]:
         x, y, width, height = counted.box
         wide, high = text_size(name, scale)
         left = min(max(x + (width - wide) // 2, _GAP), max(frame.width - wide - _GAP, _GAP))
-        top = _free_row(y + (height - high) // 2, left, wide, high, taken, frame.height)
-        taken.append((left, top, wide, high))
-        canvas.text(left, top, name, LIGHT.text, scale=scale, background=LIGHT.block)
+        rows = range(max(y - high, _GAP), min(y + height, frame.height - high - _GAP) + 1)
+        middle = y + (height - high) // 2
+        free = [top for top in rows if not _covers((left, top, wide, high), taken)]
+        if free:
+            top = min(free, key=lambda row: (abs(row - middle), row))
+            taken.append((left, top, wide, high))
+            canvas.text(left, top, name, LIGHT.text, scale=scale, background=LIGHT.block)
 
 
-def _free_row(wanted: int, left: int, wide: int, high: int, taken: list[Any], rows: int) -> int:
-    """Return the row nearest to the one wanted where a text covers no other."""
-    step = high + 2 * _GAP
-    for away in range(2 * (rows // step) + 2):
-        top = wanted + (away + 1) // 2 * step * (1 if away % 2 else -1)
-        if not _GAP <= top <= rows - high - _GAP:
-            continue
-        if not any(
-            left < x + w + _GAP and x < left + wide + _GAP and abs(top - y) < step
-            for x, y, w, _ in taken
-        ):
-            return top
-    return min(max(wanted, _GAP), rows - high - _GAP)
+def _covers(text: tuple[int, int, int, int], taken: list[tuple[int, int, int, int]]) -> bool:
+    """Return whether a text would cover or touch one of others, by x, y, width and height."""
+    left, top, wide, high = text
+    return any(
+        left < x + w + 2 * _GAP
+        and x < left + wide + 2 * _GAP
+        and top < y + h + 2 * _GAP
+        and y < top + high + 2 * _GAP
+        for x, y, w, h in taken
+    )

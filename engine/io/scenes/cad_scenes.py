@@ -7,13 +7,14 @@ Lengths are millimetres as a rule, and +Z is up.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
 from ...model.scene.scene import Scene
 from ..cad.colors_of_shapes import Components, color_material, components_of
 from ..cad.shape_meshes import diagonal_of, pose_matrix, shape_mesh
@@ -45,10 +46,15 @@ def scene_from_cad(thing: Any) -> Scene | None:
         key = one.shape.TShape(), one.color, int(one.shape.Orientation())
         if key not in meshes:
             linear = min(finest, _COARSEST * diagonal_of(one.shape))
-            paint = color_material(one.color)
-            meshes[key] = shape_mesh(one.shape, one.name, lambda face, paint=paint: paint, linear)
+            meshes[key] = shape_mesh(one.shape, one.name, _painted(one.color), linear)
         scene.add(meshes[key], name=one.name, pose=one.pose)
     return scene
+
+
+def _painted(color: Components | None) -> Callable[[Any], Material]:
+    """Return a function that gives all faces one material."""
+    material = color_material(color)
+    return lambda face: material
 
 
 def _placed(thing: Any, pose: NDArray[np.float64], name: str = "", color: Any = None) -> Any:
@@ -62,8 +68,6 @@ def _placed(thing: Any, pose: NDArray[np.float64], name: str = "", color: Any = 
         yield from _of_assembly(thing, pose, color)
     elif hasattr(thing, "vals"):  # CadQuery's workplane, or sketch
         yield from _placed(_values(thing), pose, name, color)
-    elif hasattr(thing, "_faces") and hasattr(thing, "_edges"):  # CadQuery's sketch without vals
-        yield from _placed([thing._faces, *thing._edges], pose, name, color)
     elif hasattr(thing, "wrapped"):
         yield from _of_wrapper(thing, pose, name, color)
     else:
@@ -73,12 +77,11 @@ def _placed(thing: Any, pose: NDArray[np.float64], name: str = "", color: Any = 
                 return
 
 
-def _values(workplane: Any) -> list[Any]:
-    """Return the shapes on a workplane; sketches may have faces and edges without being chosen."""
-    found = [one for one in workplane.vals() if hasattr(one, "wrapped") or hasattr(one, "vals")]
-    if not found and hasattr(workplane, "_faces"):
-        found = [workplane._faces, *workplane._edges]
-    return found
+def _values(thing: Any) -> list[Any]:
+    """Return the shapes on a workplane, or the faces of a sketch, or its edges without any."""
+    if not hasattr(thing, "objects"):
+        return list(thing) or list(thing.copy().edges().vals())
+    return [one for one in thing.vals() if hasattr(one, "wrapped") or hasattr(one, "vals")]
 
 
 def _of_wrapper(thing: Any, pose: NDArray[np.float64], name: str, color: Any) -> Iterator[_Placed]:

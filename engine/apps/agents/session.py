@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,12 +20,14 @@ from ...base.numbers import floats, real, shown
 from ...errors import InvalidArgumentError, printable
 from ...stage.open_model import open_model
 from ...stage.views.viewpoint import UP_DIRECTIONS
-from .grids import GridPicture
 from .pictures import MOST_LISTED, Picture, Studio
 from .server_limits import Limits
 from .shown_scene import shown_scene
 from .things import Part, Thing, Things, thing_of, unused
 from .view_cameras import rounded
+
+if TYPE_CHECKING:
+    from .grids import GridPicture
 
 _MOST_STEPS = 100
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}

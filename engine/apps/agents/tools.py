@@ -2,6 +2,7 @@
 
 In: JSON arguments. Out: an `Answer`: numbers, and perhaps a picture. `server` publishes the
 functions by their annotations and docstrings, which are therefore short: agents pay for each word.
+What the first picture does not need is imported when it is called, so that the server starts fast.
 """
 
 from __future__ import annotations
@@ -21,10 +22,6 @@ from ...rendering.backend_selection import resolve_threads
 from ...stage.renderer import Renderer
 from ...version import __version__
 from . import answers
-from .comparing import compared
-from .exporting import export, written_formats
-from .grids import animate_turntable, draw_turntable, draw_views
-from .made_by_scripts import run_script
 from .pictures import LOOKS, SIZE, Request
 from .questions import checked, gap_between, measured, pick
 from .session import Session
@@ -74,6 +71,8 @@ def tools_of(session: Session) -> list[Tool]:
     def script(code: str = "", path: str = "", function: str = "build", name: str = "") -> Answer:
         """Run Python; add what its function returns: a mesh, a scene, a CadQuery, build123d or
         trimesh object, or a dict or list of these."""
+        from .made_by_scripts import run_script
+
         return Answer(run_script(session, code, path, function, name))
 
     def scene() -> Answer:
@@ -114,6 +113,8 @@ def tools_of(session: Session) -> list[Tool]:
         ] = "",
     ) -> Answer:
         """Draw several views in one grid with captions, dimensions and scale."""
+        from .grids import draw_views
+
         cuts = sections.split(",") if isinstance(sections, str) and sections else sections or ()
         asked = names if isinstance(names, str) else ",".join(names)
         session.last = draw_views(session.studio, session.things, asked, size, objects, cuts)
@@ -127,6 +128,8 @@ def tools_of(session: Session) -> list[Tool]:
         format: Annotated[str, Field(json_schema_extra={"enum": list(_FORMATS)})] = "png",
     ) -> Answer:
         """Draw a turn around the scene: a grid of frames, or an animation as webp."""
+        from .grids import animate_turntable, draw_turntable
+
         turn = session.studio, session.things, frames, elevation, size, objects
         if choose(format, _FORMATS, "format") == "webp":
             animation, record = animate_turntable(*turn)
@@ -154,6 +157,8 @@ def tools_of(session: Session) -> list[Tool]:
     def compare(a: str, b: str, view: View = "iso", size: Size = _PANE) -> Answer:
         """Compare two objects, model files, or pictures (.png): the pixels that differ, how far
         surfaces deviate, and a picture of a, b and the difference."""
+        from .comparing import compared
+
         pixels, record = compared(session, a, b, view, size)
         return Answer(record, encode_png(pixels))
 
@@ -190,10 +195,14 @@ def tools_of(session: Session) -> list[Tool]:
         overwrite: bool = False,
     ) -> Answer:
         """Write objects as a model file."""
+        from .exporting import export
+
         return Answer(export(session, path, objects, format, overwrite))
 
     def formats() -> Answer:
         """List the file extensions that can be read and written."""
+        from .exporting import written_formats
+
         read = {end for one in readable_formats("mesh") for end in one.extensions}
         return Answer({"read": sorted(read), "write": written_formats()})
 

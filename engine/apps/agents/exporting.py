@@ -6,6 +6,7 @@ import os
 from typing import Any
 
 from ...base.files.atomic_write import atomic_write
+from ...base.validation import choose
 from ...errors import InvalidArgumentError
 from ...io.formats.gltf.gltf_writer import EXTENSIONS as SCENE_EXTENSIONS
 from ...io.output.animation_files import PICTURE_SUFFIXES
@@ -34,6 +35,8 @@ def export(
     InvalidArgumentError, FileAccessError
     """
     target = session.limits.path_to_write(path, overwrite)
+    if format:
+        choose(f".{format.lower().lstrip('.')}", written_formats(), "export: format")
     suffix = f".{format.lower().lstrip('.')}" if format else os.path.splitext(path)[1].lower()
     if suffix in PICTURE_SUFFIXES:
         _save_picture(session, target, suffix)

@@ -11,6 +11,7 @@ import base64
 import json
 import math
 import re
+import traceback
 import warnings
 from collections.abc import Callable
 from typing import Annotated, Any
@@ -21,6 +22,7 @@ from mcp.types import CallToolResult, ImageContent, TextContent, ToolAnnotations
 from pydantic import ValidationError
 
 from ...base.near_words import meant
+from ...base.numbers import shown
 from ...errors import Engine3DError, Engine3DWarning, printable
 from ...version import __version__
 from .server_limits import Limits
@@ -31,6 +33,8 @@ _INSTRUCTIONS = (
     "Draws and measures 3D models on the CPU. load a file, then views or render; pick tells what "
     "is at a pixel. Coordinates are those of the files. Pixels count from the top left."
 )
+#: Letters of an error.
+_MOST_SAID = 500
 
 
 class AgentTool(PublishedTool):
@@ -43,7 +47,7 @@ class AgentTool(PublishedTool):
         for word in arguments:
             if word not in known:
                 hint = meant(word, known)
-                return _failed(f"{self.name} has no argument {printable(word)!r}{hint}")
+                return _failed(f"{self.name} has no argument {shown(word)}{hint}")
         try:
             checked = self.fn_metadata.validate_arguments(arguments)
         except ValidationError as error:
@@ -127,6 +131,9 @@ def _result(call: Callable[[], Answer], limits: Limits) -> CallToolResult:
         return _failed("out of memory")
     except OSError as error:
         return _failed(printable(error.strerror or str(error)))
+    except Exception as error:
+        traceback.print_exc()  # on standard error, for a report of the fault
+        return _failed(f"a fault of engine3d: {type(error).__name__}: {printable(str(error))}")
     record = dict(answer.record)
     told = [printable(str(w.message)) for w in caught if issubclass(w.category, Engine3DWarning)]
     known = record.get("warnings", [])
@@ -143,6 +150,9 @@ def _result(call: Callable[[], Answer], limits: Limits) -> CallToolResult:
 
 
 def _failed(message: str) -> CallToolResult:
+    """Return an error; one that repeats very long arguments is cut short."""
+    if len(message) > _MOST_SAID:
+        message = f"{message[: _MOST_SAID // 2]} ... {message[-_MOST_SAID // 4 :]}"
     return CallToolResult(content=[TextContent(type="text", text=message)], is_error=True)
 
 

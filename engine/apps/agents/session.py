@@ -235,7 +235,7 @@ def _turn(value: Any) -> NDArray[np.float64]:
     axis = _AXES.get(value["axis"]) if isinstance(value["axis"], str) else value["axis"]
     if axis is None:
         raise InvalidArgumentError(
-            f"rotate: axis must be x, y, z or [x, y, z], not {value['axis']!r}"
+            f"rotate: axis must be x, y, z or [x, y, z], not {shown(value['axis'])}"
         )
     degrees = real(value["degrees"])
     direction = _vector(axis, "rotate: axis")

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base.near_words import meant
+from ...base.numbers import shown
 from ...errors import InvalidArgumentError, printable
 from ...model.geometry.mesh import Mesh
 from ...model.materials.colors import check_color
@@ -147,7 +148,9 @@ class Things(dict[str, Thing]):
         InvalidArgumentError
             There is no such object; the error suggests one.
         """
-        names = [names] if isinstance(names, str) else list(names)
+        names = [names] if isinstance(names, str) else names
+        if not isinstance(names, (list, tuple)) or not all(isinstance(n, str) for n in names):
+            raise InvalidArgumentError(f"{what} must be names of objects, not {shown(names)}")
         found: dict[int, tuple[Thing, Part]] = {}
         for name in names:
             pairs = self._named(name)
@@ -155,7 +158,7 @@ class Things(dict[str, Thing]):
                 known = [*self, *(thing.label(part) for thing, part in self.all_parts())]
                 listed = ", ".join(dict.fromkeys(known[:20])) or "none yet: load a file first"
                 raise InvalidArgumentError(
-                    f"{what}: there is no {name!r}{meant(str(name), known)} (there are: {listed})"
+                    f"{what}: there is no {shown(name)}{meant(name, known)} (there are: {listed})"
                 )
             found.update({id(part): (thing, part) for thing, part in pairs})
         return list(found.values())

@@ -69,29 +69,28 @@ def view_choice(view: Any, things: Things) -> ViewChoice:
         known = [*STANDARD, *things, *(thing.label(part) for thing, part in things.all_parts())]
         if view not in known:
             raise InvalidArgumentError(
-                f"view: {view!r} is none of {', '.join(STANDARD)}, nor an object"
+                f"view: {shown(view)} is none of {', '.join(STANDARD)}, nor an object"
                 f"{meant(view, known)}"
             )
         return ViewChoice(view, *STANDARD["iso"], fit=(view,))
     if not isinstance(view, dict):
         raise InvalidArgumentError(f"view must be a name or angles, not {shown(view)}")
-    unknown = [key for key in view if key not in _KEYS]
-    if unknown:
-        raise InvalidArgumentError(
-            f"view: {unknown[0]!r} is none of {', '.join(_KEYS)}{meant(str(unknown[0]), _KEYS)}"
-        )
+    for key in view:
+        if key not in _KEYS:
+            hint = meant(str(key), _KEYS)
+            raise InvalidArgumentError(f"view: {shown(key)} is none of {', '.join(_KEYS)}{hint}")
     azimuth, elevation = STANDARD["iso"]
     azimuth = _number(view.get("azimuth", azimuth), "view: azimuth")
     elevation = _number(view.get("elevation", elevation), "view: elevation")
     if abs(elevation) > 90.0:
         raise InvalidArgumentError("view: an elevation is from -90 to 90 degrees")
     fit = view.get("fit") or ()
-    fit = (fit,) if isinstance(fit, str) else tuple(fit)
+    fit = (fit,) if isinstance(fit, str) else fit
     things.find(fit, "view: fit")
     distance = view.get("distance")
     if distance is not None and not _number(distance, "view: distance") > 0.0:
         raise InvalidArgumentError("view: a distance is above 0")
-    return ViewChoice(f"{azimuth:g}, {elevation:g}", azimuth, elevation, fit, distance)
+    return ViewChoice(f"{azimuth:g}, {elevation:g}", azimuth, elevation, tuple(fit), distance)
 
 
 def _number(value: Any, what: str) -> float:

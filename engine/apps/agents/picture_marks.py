@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
@@ -24,6 +25,8 @@ MOST_LABELS = 24
 #: How much of a highlight's colour is over the surface.
 _TINT = 0.45
 _GAP = 3
+#: Runs of this fraction of the longest one are long enough for a name to stand on.
+_LONG = 0.8
 _KEYS = ("object", "faces")
 
 
@@ -70,8 +73,8 @@ def _check_faces(faces: Any, count: int) -> None:
 def draw_names(frame: Frame, shown_: Shown) -> None:
     """Write the names of the largest visible parts on them.
 
-    A name stands within the box of its part and covers no other; where there is no room, it is
-    left out.
+    A name stands where its part is broad, and covers no other; where there is no room, it is left
+    out.
     """
     canvas = frame.canvas()
     taken: list[tuple[int, int, int, int]] = []
@@ -79,14 +82,30 @@ def draw_names(frame: Frame, shown_: Shown) -> None:
     for name, counted in shown_.visible(frame)[:MOST_LABELS]:
         x, y, width, height = counted.box
         wide, high = text_size(name, scale)
-        left = min(max(x + (width - wide) // 2, _GAP), max(frame.width - wide - _GAP, _GAP))
+        shows = frame.object_id[y : y + height, x : x + width] == counted.key
+        column, middle = _broadest(shows)
+        left = x + column - wide // 2
+        left = min(max(left, _GAP), max(frame.width - wide - _GAP, _GAP))
+        middle += y - high // 2
         rows = range(max(y - high, _GAP), min(y + height, frame.height - high - _GAP) + 1)
-        middle = y + (height - high) // 2
         free = [top for top in rows if not _covers((left, top, wide, high), taken)]
         if free:
             top = min(free, key=lambda row: (abs(row - middle), row))
             taken.append((left, top, wide, high))
             canvas.text(left, top, name, LIGHT.text, scale=scale, background=LIGHT.block)
+
+
+def _broadest(shows: NDArray[np.bool_]) -> tuple[int, int]:
+    """Return the column and the row of the middle of a long run of pixels of a mask (H, W).
+
+    Of runs nearly as long as the longest, that in the row nearest to the middle.
+    """
+    steps = np.diff(np.pad(shows, ((0, 0), (1, 1))).astype(np.int8), axis=1)
+    rows, starts = np.nonzero(steps == 1)
+    lengths = np.nonzero(steps == -1)[1] - starts
+    long = np.flatnonzero(lengths >= _LONG * lengths.max())
+    best = long[np.abs(rows[long] - shows.shape[0] // 2).argmin()]
+    return int(starts[best] + lengths[best] // 2), int(rows[best])
 
 
 def _covers(text: tuple[int, int, int, int], taken: list[tuple[int, int, int, int]]) -> bool:

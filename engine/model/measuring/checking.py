@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
-from ...base.calls import shows_annotations
+from ...base.calls import hinted, shows_annotations
 from .edges import Edges, edges_of
 from .surfaces import Surface, surface_of
 
@@ -56,6 +56,7 @@ class Faults(NamedTuple):
         return self.not_finite > 0 or any(len(found) for found in self[2:])
 
 
+@hinted
 def check(thing: Any) -> Faults:
     """Find the faults of the surface of a mesh, of instances, of a node, or of a scene.
 

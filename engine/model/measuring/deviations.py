@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
-from ...base.calls import shows_annotations
+from ...base.calls import hinted, shows_annotations
 from ...base.validation import positive
 from ..spatial.triangles import closest_points
 from ._boxes import BoxTree, box_tree, square_gaps
@@ -65,6 +65,7 @@ class _Found(NamedTuple):
     places: _Floats
 
 
+@hinted
 def hausdorff(a: Any, b: Any, *, tolerance: float = 1e-3) -> Deviation:
     """Find how far two surfaces deviate from each other: the Hausdorff distance.
 

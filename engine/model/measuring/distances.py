@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
-from ...base.calls import shows_annotations
+from ...base.calls import hinted, shows_annotations
 from ...errors import InvalidArgumentError
 from ._boxes import BoxTree, box_tree, square_gaps
 from ._nearest import Pairs, nearest_of_triangles, pairs_between
@@ -50,6 +50,7 @@ class Gap(NamedTuple):
     inside: bool
 
 
+@hinted
 def distance(a: Any, b: Any) -> Gap:
     """Find the nearest points of two surfaces.
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
-from ...base.calls import shows_annotations
+from ...base.calls import hinted, shows_annotations
 from .checking import proper_faces
 from .edges import edges_of, parts_of
 from .surfaces import Surface, surface_of
@@ -52,6 +52,7 @@ class Measures(NamedTuple):
     inertia: NDArray[np.float64] | None
 
 
+@hinted
 def measure(thing: Any) -> Measures:
     """Measure the surface of a mesh, of instances, of a node with its subtree, or of a scene.
 

@@ -8,6 +8,7 @@ as structured content and, for clients that know no such, as text.
 from __future__ import annotations
 
 import base64
+import inspect
 import json
 import math
 import re
@@ -101,16 +102,9 @@ def _published(tool: Tool, session: Session) -> AgentTool:
         return _result(lambda: tool.call(**arguments), session.limits)
 
     call.__name__, call.__doc__ = tool.call.__name__, _one_line(tool.call.__doc__ or "")
-    call.__annotations__ = {
-        **tool.call.__annotations__,
-        "return": Annotated[CallToolResult, tool.record],
-    }
-    import inspect
-
-    signature = inspect.signature(tool.call, eval_str=True)
-    call.__signature__ = signature.replace(  # type: ignore[attr-defined]
-        return_annotation=Annotated[CallToolResult, tool.record]
-    )
+    signature: Any = inspect.signature(tool.call, eval_str=True)
+    returns = Annotated[CallToolResult, tool.record]
+    vars(call)["__signature__"] = signature.replace(return_annotation=returns)
     hints = ToolAnnotations(read_only_hint=tool.reads, open_world_hint=False)
     published = AgentTool.from_function(call, annotations=hints)
     published.parameters = _without_titles(published.parameters)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from ...base import linalg
 from ...base.files.atomic_write import atomic_write
 from ...base.validation import choose
 from ...errors import InvalidArgumentError
@@ -64,14 +65,13 @@ def _save_model(parts: list[tuple[Thing, Part]], target: str, suffix: str) -> No
         save_scene(_scene(parts), target)
         return
     writer = find_writer(target, suffix)
-    meshes, poses, names = [], [], []
+    meshes, names = [], []
     for thing, part in parts:
         instanced = isinstance(part.drawn, InstancedMesh)
         for own in instance_matrices(part.drawn.poses) if instanced else [None]:
             mesh = part.drawn.mesh if instanced else part.drawn
-            pose = part.pose if own is None else part.pose @ own
+            pose = part.pose if own is None else linalg.multiply(part.pose, own)
             meshes.append(posed_mesh(mesh, pose))
-            poses.append(None)
             names.append(thing.label(part))
     save_mesh(Mesh.concatenate(meshes, name=names[0]), target, format=writer.name)
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base import linalg
 from ...errors import FileFormatError
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
@@ -111,7 +112,7 @@ class _Assembly:
         from OCP.TDF import TDF_Label
 
         place = self._shapes.GetLocation_s(label).Transformation()
-        pose = pose @ pose_matrix(place)
+        pose = linalg.multiply(pose, pose_matrix(place))
         part = TDF_Label()
         if not self._shapes.IsReference_s(label):
             part = label

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base import linalg
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 
@@ -115,8 +116,8 @@ class _Parts:
         BRepLib_ToolTriangulatedShape.ComputeNormals_s(face, made)
         pose = _pose_of(place)
         numbers = range(1, made.NbNodes() + 1)
-        points = _coordinates(made.Node(n) for n in numbers) @ pose[:3, :3].T + pose[:3, 3]
-        normals = _coordinates(made.Normal(n) for n in numbers) @ pose[:3, :3].T
+        points = linalg.transform_points(pose, _coordinates(made.Node(n) for n in numbers))
+        normals = linalg.transform_directions(pose, _coordinates(made.Normal(n) for n in numbers))
         corners = [made.Triangle(n).Get() for n in range(1, made.NbTriangles() + 1)]
         faces = np.array(corners, np.int64).reshape(-1, 3) - 1
         if face.Orientation() == TopAbs_REVERSED:  # normals and corners are those of its surface

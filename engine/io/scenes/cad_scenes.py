@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base import linalg
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.scene.scene import Scene
@@ -95,14 +96,14 @@ def _of_wrapper(thing: Any, pose: NDArray[np.float64], name: str, color: Any) ->
     if not children:
         yield from _of_shape(thing.wrapped, pose, name or type(thing).__name__.lower(), color)
         return
-    pose = pose @ pose_matrix(thing.wrapped.Location().Transformation())
+    pose = linalg.multiply(pose, pose_matrix(thing.wrapped.Location().Transformation()))
     for child in children:
         yield from _placed(child, pose, name, color)
 
 
 def _of_assembly(thing: Any, pose: NDArray[np.float64], color: Any) -> Iterator[_Placed]:
     """Yield the shapes of an assembly of CadQuery, whose locations are relative."""
-    pose = pose @ pose_matrix(thing.loc.wrapped.Transformation())
+    pose = linalg.multiply(pose, pose_matrix(thing.loc.wrapped.Transformation()))
     color = thing.color or color
     if thing.obj is not None:
         yield from _placed(thing.obj, pose, str(thing.name), color)
@@ -115,7 +116,7 @@ def _of_shape(shape: Any, pose: NDArray[np.float64], name: str, color: Any) -> I
 
     if shape.IsNull():
         return
-    pose = pose @ pose_matrix(shape.Location().Transformation())
+    pose = linalg.multiply(pose, pose_matrix(shape.Location().Transformation()))
     yield _Placed(shape.Located(TopLoc_Location()), name or "shape", pose, _components(color))
 
 

@@ -84,8 +84,8 @@ _PUBLIC = {
 }
 _MODULES = (
     *("batch", "choices", "colliders", "datasets", "detail", "drawings", "errors", "events"),
-    *("lights", "linalg", "loaders", "motion", "navigation", "plugins", "primitives"),
-    *("rasterization", "resources", "sensors", "sheets", "worlds"),
+    *("lights", "linalg", "loaders", "measuring", "motion", "navigation", "plugins"),
+    *("primitives", "rasterization", "resources", "sensors", "sheets", "worlds"),
 )
 
 # Modules with optional dependencies or few users: not for ``import *``.

@@ -13,6 +13,7 @@ from . import golden as golden
 from . import lights as lights
 from . import linalg as linalg
 from . import loaders as loaders
+from . import measuring as measuring
 from . import motion as motion
 from . import navigation as navigation
 from . import notebook as notebook

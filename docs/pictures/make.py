@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+from dataclasses import replace
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
@@ -26,6 +27,9 @@ from vectors import SIZE, VECTORS
 
 import engine3d as e3d
 from engine3d import linalg
+from engine3d.apps.agents.pictures import Request
+from engine3d.apps.agents.server_limits import Limits
+from engine3d.apps.agents.session import Session
 from engine3d.apps.golden.comparison import compare
 from engine3d.apps.golden.difference_picture import difference_picture
 from engine3d.apps.scenes import load_demo
@@ -370,6 +374,27 @@ def beside_lines() -> np.ndarray:
     return e3d.render(MODELS / "train.asc", size=SIZE).color
 
 
+def agents() -> np.ndarray:
+    """What an agent gets by the tools of docs/agents.md."""
+    session = Session(Limits(root=str(MODELS)))
+    session.load("train.asc")
+    session.edit("train/Smoke", {"visible": False})
+    side = {"azimuth": 60, "elevation": 16}
+    requests = {
+        "render labels=true": Request(labels=True),
+        'section={"axis": "y"}': Request(view=side, section={"axis": "y"}),
+        'highlight=[{"object": "train/Boiler"}]': Request(
+            view=side, highlight=[{"object": "train/Boiler"}]
+        ),
+        'view="train/Cab" look="ids"': Request(view="train/Cab", look="ids"),
+    }
+    tiles = []
+    for caption, request in requests.items():
+        drawn = session.studio.draw(session.things, replace(request, size=[560, 400]))
+        tiles.append((caption, drawn.pixels))
+    return sheet(tiles, 2)
+
+
 def impostors() -> np.ndarray:
     """A field of teapots as meshes, and with impostors where nobody can tell."""
     mesh = load("teapot.obj")
@@ -489,6 +514,7 @@ PICTURES = {
     "impostors": impostors,
     "golden": golden,
     "sheet": contact_sheet,
+    "agents": agents,
     "sensors": sensors,
     "robot": robot,
     "beside_lines": beside_lines,
@@ -497,7 +523,8 @@ PICTURES = {
 }
 #: Those that are compressed, of which drawn.json has digests.
 SMALL = (
-    *("beside_lines", "models", "mirrors", "lenses", "sheet", "sensors", "city", "impostors", "robot"),
+    *("beside_lines", "models", "mirrors", "lenses", "sheet", "agents", "sensors"),
+    *("city", "impostors", "robot"),
     *gallery.programs(),
 )
 QUALITY = 82

@@ -163,6 +163,7 @@ def view_document(
         details=document_lines(document),
         warnings=list(scene.warnings),
         unit=document.unit,
+        model_edges=document.model_edges,
     )
 
 

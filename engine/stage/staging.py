@@ -243,7 +243,8 @@ class Staging:
         is_painted = self.settings.material is not None or self.viewed.coloring is not None
         if not self.viewed.themed or not wanted or (wanted == "auto" and is_painted):
             return None
-        return FeatureLines(self.scene, of_all=wanted is True)
+        of_model = wanted == "auto" and self.viewed.model_edges
+        return FeatureLines(self.scene, of_all=wanted is True, of_model=of_model)
 
     def _shows_theme(self) -> bool:
         """Return whether the background is the theme's."""

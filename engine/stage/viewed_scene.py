@@ -99,6 +99,8 @@ class ViewedScene:
         The colour bar, if its colours represent numbers.
     coloring : Coloring or None
         How its meshes show numbers, unless they are coloured by them already.
+    model_edges : bool
+        Whether visible edges of its meshes are those of a model of CAD, which looks draw thin.
     """
 
     scene: Scene
@@ -129,6 +131,7 @@ class ViewedScene:
     unit: str = ""
     bar: ScalarBar | None = None
     coloring: Coloring | None = None
+    model_edges: bool = False
 
     @cached_property
     def bounds(self) -> Sphere:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
-from ..io.scenes.other_libraries import library_of
+from ..io.scenes.other_libraries import CAD_LIBRARIES, library_of
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from .appearance import BARE
@@ -44,10 +44,20 @@ def viewed_of(thing: Any) -> ViewedScene | None:
     scene = scene_of(thing)
     if scene is None:
         return None
-    title = getattr(thing, "name", "") or type(thing).__name__.lower()
+    title = str(getattr(thing, "name", "") or type(thing).__name__.lower())
     is_scene, is_dressed = isinstance(thing, Scene), not is_lit(scene)
     appearance = dict(BARE) if is_scene and not is_dressed else {}
-    return ViewedScene(scene, title, themed=is_dressed, is_scene=is_scene, appearance=appearance)
+    is_cad = library_of(thing) in CAD_LIBRARIES
+    return ViewedScene(
+        scene,
+        title,
+        up="+Z" if is_cad else "+Y",
+        themed=is_dressed,
+        is_scene=is_scene,
+        appearance=appearance,
+        unit="mm" if is_cad else "",
+        model_edges=is_cad,
+    )
 
 
 def viewed_thing(

@@ -171,6 +171,12 @@ RIGHT: dict[str, Any] = {
         b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + bytes([9, 9, 9, 128] * 2)
     ),
     "Generator.uniform.low": 0.0,
+    "measure.thing": mesh,
+    "check.thing": mesh,
+    "distance.a": mesh,
+    "distance.b": mesh,
+    "hausdorff.a": mesh,
+    "hausdorff.b": mesh,
     "Mesh.save.path": "mesh.obj",
     "save_mesh.path": "mesh.obj",
     "save_animation.path": "turn.gif",

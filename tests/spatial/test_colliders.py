@@ -7,7 +7,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.model.spatial._triangles import closest_points, triangles_meet_box
+from engine3d.model.spatial.triangles import closest_points, triangles_meet_box
 
 
 def random_scene(seed):

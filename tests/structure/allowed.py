@@ -3,8 +3,10 @@
 Where a breach is to stay, a comment says why.
 """
 
-# Keywords are what users write. Those of compat.pybullet and compat.pyrender are these packages'.
+# Keywords are what users and agents write. Those of compat.pybullet and compat.pyrender are these
+# packages'.
 LONG_SIGNATURES = (
+    "apps.agents.tools.render",
     "apps.batch.running.run",
     "apps.drawings.drawing_sheet.drawing_sheet",
     "apps.sheet.contact_sheet.contact_sheet",

@@ -61,8 +61,11 @@ FACADES = {
 }
 #: Of programs, those that use another.
 ARROWS = {
+    "agents -> golden",
+    "agents -> sheet",
     "batch -> datasets",
     "bench -> scenes",
+    "cli -> agents",
     "cli -> batch",
     "cli -> bench",
     "cli -> desktop",

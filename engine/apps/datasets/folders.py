@@ -21,7 +21,6 @@ from ...base.files.making_folders import make_folder_of
 from ...base.validation import optional_positive
 from ...io.scenes.object_kinds import kind_of, values_of
 from ...model.scene.lenses.lens_camera import LensCamera
-from ...rendering.frame import Frame, Output
 from .measured import checked_outputs, described, encoded, frame_outputs
 from .readme import write_readme
 from .samples import Sample

@@ -5,15 +5,16 @@ In: nodes, and a camera whose near plane cuts them. Out: the cut node of each pi
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
 from ...base import linalg
 from ...model.scene.cameras import Camera
+from ...model.scene.nodes import Node
 from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from .layout import Rectangle
-from .panel_renderer import PanelRenderer
 
 #: Colours of cut material and its hatching.
 _CUT, _HATCH = (232, 164, 124), (150, 78, 44)
@@ -44,16 +45,18 @@ class Caps(NamedTuple):
 
 
 def find_caps(
-    studio: PanelRenderer, plane: Plane, camera: Camera, pose: np.ndarray, rectangle: Rectangle
+    nodes: Iterable[Node], plane: Plane, camera: Camera, pose: np.ndarray, rectangle: Rectangle
 ) -> Caps:
     """Return the cut faces of a panel.
 
     Parameters
     ----------
-    studio, plane, camera, pose, rectangle
+    nodes : iterable of Node
+        Those of the scene.
+    plane, camera, pose, rectangle
         Of the panel.
     """
-    outlines = cut_nodes(studio.scene.nodes, plane)
+    outlines = cut_nodes(nodes, plane)
     areas = [area_of(outline.segments, plane) for outline in outlines]
     gaps = [gaps_of(outline.segments) for outline in outlines]
     ids = np.full((rectangle.height, rectangle.width), -1, np.int64)
@@ -63,12 +66,12 @@ def find_caps(
             closed = np.concatenate([outlines[number].segments, gaps[number]])
             ends = _on_panel(closed, camera, pose, rectangle)
             ids[inside(ends, rectangle.width, rectangle.height)] = outlines[number].node
-    nodes = []
+    cuts = []
     for outline, area, gap in zip(outlines, areas, gaps, strict=True):
         is_closed = gap is not None and not len(gap)
         pixels = int(np.count_nonzero(ids == outline.node))
-        nodes.append(CutNode(outline.node, pixels, area if is_closed else None))
-    return Caps(ids, nodes)
+        cuts.append(CutNode(outline.node, pixels, area if is_closed else None))
+    return Caps(ids, cuts)
 
 
 def _on_panel(

@@ -152,7 +152,7 @@ def draw_panel(
     )
     if spec.section is not None:
         plane = _plane(studio, spec, origin)
-        panel.caps = find_caps(studio, plane, camera, pose, rectangle)
+        panel.caps = find_caps(studio.scene.nodes, plane, camera, pose, rectangle)
         _show_caps(panel, plane, origin)
     if not spec.is_picture:
         _ink(panel, studio)

@@ -1,8 +1,10 @@
-"""STEP and IGES, the exchange formats of CAD, read by the optional package cascadio.
+"""STEP, IGES and BREP files of CAD, read by the optional packages cascadio and cadquery-ocp.
 
 In: the bytes of a file. Out: a `Document` of triangles that follow its curved surfaces closely. The
-package, which includes Open CASCADE, runs in a separate process, see `limited_process`. It converts
-the file to glTF: the tree of parts, their names and colours; coordinates are metres, +Z is up.
+packages, which include Open CASCADE, run in a separate process, see `limited_process`. cascadio
+converts STEP and IGES to glTF: the tree of parts, their names and colours; coordinates are metres.
+Where it is missing, and for BREP, cadquery-ocp reads files; coordinates are millimetres, and the
+edges of the model are known. +Z is up.
 """
 
 from __future__ import annotations
@@ -11,8 +13,10 @@ import functools
 import importlib.util
 
 from ...errors import FileFormatError
+from ..cad.shape_files import read_parts
 from ..reading.documents import Document
 from ..reading.limited_process import in_limited_process
+from ..reading.posed_parts import MAX_REPEATED, counts_of, document_objects
 from ..reading.reader_registry import Reader
 from ..reading.sources import Source
 from .gltf.gltf import read_gltf
@@ -21,8 +25,16 @@ from .gltf.gltf import read_gltf
 # normals, in radians.
 _LINEAR, _ANGULAR = 0.001, 0.25
 _STEP = b"ISO-10303-21"
+_BREP = (
+    b"DBRep_DrawableShape",
+    b"\nCASCADE Topology",
+    b"CASCADE Topology",
+    b"Open CASCADE Topology",
+)
 # Open CASCADE needs several times the memory and time of other readers; its limits scale by this.
 _SIZE_FACTOR = 8
+# And so much counts besides: the smallest file of a curved part needs more than limits allow.
+_SIZE_BESIDE = 16 << 20
 
 
 def read_step(source: Source, split: bool = False, kind: str = "step") -> Document:
@@ -30,11 +42,13 @@ def read_step(source: Source, split: bool = False, kind: str = "step") -> Docume
     if kind == "step" and not source.head(64).lstrip().startswith(_STEP):
         raise FileFormatError("not a step file", source.path)
     if importlib.util.find_spec("cascadio") is None:
+        if _has_ocp():
+            return _read_with_ocp(source, split, kind)
         raise FileFormatError(
             f"{kind} files need the package cascadio: pip install engine3d[step]", source.path
         )
     convert = functools.partial(_converted, kind=kind)
-    size = _SIZE_FACTOR * source.size
+    size = _SIZE_FACTOR * source.size + _SIZE_BESIDE
     content = in_limited_process(convert, source, split, size=size)
     if not content:
         raise FileFormatError(f"damaged, or no {kind} file: cascadio cannot read it", source.path)
@@ -68,8 +82,33 @@ def _read_iges(source: Source, split: bool = False) -> Document:
     return read_step(source, split, "iges")
 
 
+def _read_brep(source: Source, split: bool = False) -> Document:
+    if not _has_ocp():
+        raise FileFormatError(
+            "brep files need the package cadquery-ocp: pip install engine3d[cad]", source.path
+        )
+    return _read_with_ocp(source, split, "brep")
+
+
+def _has_ocp() -> bool:
+    return importlib.util.find_spec("OCP") is not None
+
+
+def _read_with_ocp(source: Source, split: bool, kind: str) -> Document:
+    size = _SIZE_FACTOR * source.size + _SIZE_BESIDE
+    read = functools.partial(read_parts, kind=kind)
+    parts = in_limited_process(read, source, split, size=size)
+    objects = document_objects(source, parts, MAX_REPEATED + source.size, split)
+    counts = counts_of(objects)
+    return Document(kind, objects, counts=counts, unit="mm", model_edges=True)
+
+
 def _is_step(head: bytes) -> bool:
     return head.startswith(_STEP)
+
+
+def _is_brep(head: bytes) -> bool:
+    return head.startswith(_BREP)
 
 
 READERS = (
@@ -77,4 +116,10 @@ READERS = (
         "step", "STEP, through cascadio", "mesh", (".step", ".stp"), read_step, _is_step, up="+Z"
     ),
     Reader("iges", "IGES, through cascadio", "mesh", (".iges", ".igs"), _read_iges, up="+Z"),
+    Reader(
+        *("brep", "BREP of Open CASCADE, through cadquery-ocp", "mesh", (".brep", ".brp")),
+        _read_brep,
+        _is_brep,
+        up="+Z",
+    ),
 )

@@ -474,6 +474,8 @@ class Document:
     made : Scene or None
         The scene of a plug-in's reader; the objects are its visible meshes. It is copied for each
         caller.
+    model_edges : bool
+        Whether visible edges of the meshes are those of a model of CAD, and no others.
     """
 
     format: str
@@ -488,6 +490,7 @@ class Document:
     arrays: dict[str, list[str]] = field(default_factory=dict)
     up: str = "+Y"
     made: Scene | None = None
+    model_edges: bool = False
 
     @property
     def has_joints(self) -> bool:

@@ -1,4 +1,4 @@
-"""Scenes of what other libraries hold: trimesh, PyVista and meshio.
+"""Scenes of what other libraries hold: trimesh, PyVista, meshio, CadQuery and build123d.
 
 In: any object. Out: a `Scene` if a library of this list made it. None of them is imported here: who
 has such an object has imported its library.
@@ -10,11 +10,15 @@ from collections.abc import Callable
 from typing import Any
 
 from ...model.scene.scene import Scene
+from .cad_scenes import scene_from_cad
 from .meshio_scenes import scene_from_meshio
 from .pyvista_scenes import scene_from_pyvista
 from .trimesh_scenes import scene_from_trimesh
 
+#: Libraries of CAD, whose meshes have the edges of their models, and whose +Z is up.
+CAD_LIBRARIES = ("OCP", "build123d", "cadquery")
 _SCENES: dict[str, Callable[[Any], Scene | None]] = {
+    **dict.fromkeys(CAD_LIBRARIES, scene_from_cad),
     "meshio": scene_from_meshio,
     "pyvista": scene_from_pyvista,
     "trimesh": scene_from_trimesh,
@@ -28,6 +32,13 @@ def scene_of_library(thing: Any) -> Scene | None:
 
 
 def library_of(thing: Any) -> str | None:
-    """Return the library of this list whose class an object has, or derives from; None for none."""
+    """Return the library of this list whose class an object has, or derives from; None for none.
+
+    A list or tuple of objects of libraries for CAD is of the first one's.
+    """
+    if isinstance(thing, (list, tuple)):
+        found = [library_of(one) for one in thing if not isinstance(one, (list, tuple))]
+        are_cad = len(found) == len(thing) > 0 and all(one in CAD_LIBRARIES for one in found)
+        return found[0] if are_cad else None
     packages = (kind.__module__.partition(".")[0] for kind in type(thing).__mro__)
     return next((package for package in packages if package in _SCENES), None)

@@ -72,7 +72,7 @@ def polygon_ids(
     if edge_visible is None or edge_visible.all():
         return np.arange(count, dtype=np.int32)
     first, second = _hidden_edge_pairs(faces, edge_visible, position_ids)
-    label = _components(count, first, second)
+    label = components(count, first, second)
     # If the faces of a component are not consecutive (files may flag any edge), split it into its
     # runs.
     joined = np.zeros(count, bool)
@@ -116,7 +116,7 @@ def _hidden_edge_pairs(
     return first[different], second[different]
 
 
-def _components(count: int, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def components(count: int, first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Label connected faces with the smallest face of their component (hook and compress)."""
     label = np.arange(count)
     while True:

@@ -23,8 +23,8 @@ from ..scene.nodes import Node
 from ..scene.scene_data import SceneData
 from ..scene.shown import placing_poses, shown_object
 from ._shapes import faces_in_box, way_to_face
-from ._triangles import sphere_meets_triangles, triangles_meet_box
 from .colliders import BoxCollider, ColliderHit, MeshCollider, SphereCollider
+from .triangles import sphere_meets_triangles, triangles_meet_box
 
 _quiet = np.errstate(over="ignore", invalid="ignore")  # overflow means infinitely far away
 

@@ -51,11 +51,13 @@ class FeatureLines:
     of_all : bool
         Whether to draw those of all meshes, instead of those of faceted meshes that state no
         material.
+    of_model : bool
+        Whether the visible edges of meshes are those of a model of CAD, and all are drawn.
     """
 
-    def __init__(self, staged: StagedScene, of_all: bool) -> None:
+    def __init__(self, staged: StagedScene, of_all: bool, of_model: bool = False) -> None:
         self._staged = staged
-        self._of_all = of_all
+        self._of_all, self._of_model = of_all, of_model
         self._node: Node | None = None
         # The edges of objects by number, None if none are drawn, and what they were found in.
         self._edges: dict[int, _Edges | None] = {}
@@ -168,6 +170,8 @@ class FeatureLines:
     def _edges_of(self, obj: Any) -> np.ndarray | None:
         """Return the edges of an object's mesh that are drawn, (E, 2); None if none are."""
         mesh: Mesh = getattr(obj, "mesh", obj)
+        if self._of_model:
+            return mesh.edges()
         if self._of_all:
             return derived(mesh, "feature_edges")
         is_tinted = mesh.colors is not None or getattr(obj, "colors", None) is not None

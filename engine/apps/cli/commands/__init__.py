@@ -167,6 +167,14 @@ COMMANDS = {
         _of_modules("bench_options"),
         is_quiet=False,
     ),
+    "mcp": Command(
+        "serve agents: pictures and measures by the Model Context Protocol",
+        "Serve an agent by the Model Context Protocol on standard input and output: it loads "
+        "models, draws them, asks what is where, measures, compares, edits. Clients start this "
+        "command (docs/agents.md). It needs pip install 'engine3d[mcp]'.",
+        _of_modules("mcp_options"),
+        is_quiet=False,
+    ),
     "plugins": Command(
         "list the packages that extend engine3d",
         "List what installed packages add to engine3d (docs/plugins.md): readers, writers, kinds "

@@ -1,0 +1,1 @@
+"""Measures surfaces: mass, faults, distances. In float64, the same bits on every machine."""

@@ -1,30 +1,49 @@
-"""Scenes of what other libraries hold: trimesh, PyVista and meshio.
+"""Scenes of what other libraries hold: trimesh, PyVista, meshio and Open3D.
 
-In: any object. Out: a `Scene` if a library of this list made it. None of them is imported here: who
+In: any object, or a list of them. Out: a `Scene` if a library of this list made it. None of them is imported here: who
 has such an object has imported its library.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...model.scene.scene import Scene
 from .meshio_scenes import scene_from_meshio
+from .open3d_scenes import scene_from_open3d
 from .pyvista_scenes import scene_from_pyvista
 from .trimesh_scenes import scene_from_trimesh
 
 _SCENES: dict[str, Callable[[Any], Scene | None]] = {
     "meshio": scene_from_meshio,
+    "open3d": scene_from_open3d,
     "pyvista": scene_from_pyvista,
     "trimesh": scene_from_trimesh,
 }
 
 
 def scene_of_library(thing: Any) -> Scene | None:
-    """Return a scene of an object of another library; None if it is of none, or shows nothing."""
+    """Return a scene of an object of another library, or of a list of such objects.
+
+    None for what is of none of these libraries, or shows nothing.
+    """
+    if isinstance(thing, list | tuple):
+        return _scene_of_several(thing)
     library = library_of(thing)
     return None if library is None else _SCENES[library](thing)
+
+
+def _scene_of_several(things: Sequence[Any]) -> Scene | None:
+    """Return one scene of several things; None unless each can be shown."""
+    scenes = [scene_of_library(thing) for thing in things]
+    if not scenes or any(scene is None for scene in scenes):
+        return None
+    whole = Scene()
+    for scene in scenes:
+        for node in () if scene is None else scene.nodes:
+            whole.add(node.object, name=node.name, pose=node.pose)
+    return whole
 
 
 def library_of(thing: Any) -> str | None:

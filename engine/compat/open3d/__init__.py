@@ -9,6 +9,28 @@ from ._loading import load
 
 load()
 
+from . import rendering  # noqa: E402
+from .drawing_functions import (  # noqa: E402
+    draw,
+    draw_geometries,
+    draw_geometries_with_animation_callback,
+    draw_geometries_with_key_callbacks,
+)
+from .installing import install  # noqa: E402
+from .key_callbacks import VisualizerWithKeyCallback  # noqa: E402
+from .render_option import RenderOption  # noqa: E402
+from .view_control import ViewControl  # noqa: E402
 from .visualizer import Visualizer  # noqa: E402
 
-__all__ = ["Visualizer"]
+__all__ = [
+    "RenderOption",
+    "ViewControl",
+    "Visualizer",
+    "VisualizerWithKeyCallback",
+    "draw",
+    "draw_geometries",
+    "draw_geometries_with_animation_callback",
+    "draw_geometries_with_key_callbacks",
+    "install",
+    "rendering",
+]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from .render_option import Lamp
 
 _Floats = NDArray[np.float64]
-_ROOTS = 8  # binary places of exponents
+_ROOTS = 12  # binary places of exponents
 _FAINT = 1e-12  # powers below it do not show
 
 
@@ -65,7 +65,7 @@ def phong(
         across = _dots(normals, rays)
         diffuse += np.clip(across, 0.0, 1.0)[:, np.newaxis] * shares
         mirrored = np.clip(2.0 * across * facing - _dots(towards, rays), 0.0, 1.0)
-        gloss += _power(mirrored, shininess)[:, np.newaxis] * glosses
+        gloss += power(mirrored, shininess)[:, np.newaxis] * glosses
     return np.clip(colors * diffuse + gloss, 0.0, 1.0)
 
 
@@ -95,7 +95,7 @@ def _units(vectors: _Floats) -> _Floats:
     return vectors / np.where(lengths > 0, lengths, 1.0)[:, np.newaxis]
 
 
-def _power(base: _Floats, exponent: float) -> _Floats:
+def power(base: _Floats, exponent: float) -> _Floats:
     """Return powers by products and square roots, which have the same bits everywhere."""
     if not exponent > 0:
         return np.ones_like(base)

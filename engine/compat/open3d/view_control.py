@@ -258,7 +258,7 @@ class ViewControl:
             )
             return False
         before, half = self._field_of_view, height / (intrinsic[1, 1] * 2.0)
-        self._field_of_view = math.degrees(math.atan(half) * 2.0)
+        self._field_of_view = math.degrees(float(linalg.atan2(half, 1.0)) * 2.0)
         if not allow_arbitrary:
             most, least = self.FIELD_OF_VIEW_MAX, self.FIELD_OF_VIEW_MIN
             self._field_of_view = max(min(self._field_of_view, most), least)

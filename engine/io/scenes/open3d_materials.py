@@ -1,7 +1,9 @@
 """Materials of Open3D's renderer as the engine's.
 
 In: an ``open3d.visualization.rendering.MaterialRecord``, images of Open3D. Out: a `Material`,
-textures. Base colours are linear light and images display values, as Open3D's shaders read them.
+textures. Base colours of
+lit materials are linear light, those of others and images display values, as Open3D's shaders read
+them.
 """
 
 from __future__ import annotations
@@ -57,11 +59,13 @@ def material_of_record(record: Any) -> Material:
     color = np.clip(np.asarray(record.base_color, np.float64), 0.0, 1.0)
     is_clear = record.shader.endswith("Transparency") or record.has_alpha
     alpha = float(color[3]) if is_clear else 1.0
+    is_unlit = record.shader in _UNLIT
+    rgb = color[:3].tolist()
     material = Material(
-        color=linear(*color[:3].tolist(), alpha),
+        color=(*rgb, alpha) if is_unlit else linear(*rgb, alpha),
         two_sided=True,
         alpha_mode="blend" if is_clear else "opaque",
-        unlit=record.shader in _UNLIT,
+        unlit=is_unlit,
     )
     if not material.unlit:
         _make_physical(material, record)

@@ -3,10 +3,13 @@
 Where a breach is to stay, a comment says why.
 """
 
-# Keywords are what users write. Those of compat.pyrender are pyrender's own.
+# Keywords are what users write. Those of compat are of the libraries that it stands for.
 LONG_SIGNATURES = (
     "apps.batch.running.run",
     "apps.sheet.contact_sheet.contact_sheet",
+    "compat.open3d.drawing_functions.draw",
+    "compat.open3d.drawing_functions.draw_geometries",
+    "compat.open3d.rendering.low_level_scene.add_spot_light",
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",
     "compat.pyrender.primitive.__init__",

@@ -16,9 +16,9 @@ from .drawing_functions import (  # noqa: E402
     draw_geometries_with_animation_callback,
     draw_geometries_with_key_callbacks,
 )
-from .installing import install  # noqa: E402
 from .key_callbacks import VisualizerWithKeyCallback  # noqa: E402
 from .render_option import RenderOption  # noqa: E402
+from .replacing import install  # noqa: E402
 from .view_control import ViewControl  # noqa: E402
 from .visualizer import Visualizer  # noqa: E402
 

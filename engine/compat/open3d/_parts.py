@@ -255,7 +255,7 @@ def _of_octree(tree, option, box) -> Iterator[Part]:
 
 
 def _shown(colors):
-    """Return colours as Open3D's frame buffer holds them: from 0 to 1, neither coded nor decoded."""
+    """Return colours as Open3D's frame buffer holds them: from 0 to 1, as they are."""
     return linear(np.clip(np.nan_to_num(np.asarray(colors, np.float32)), 0.0, 1.0))
 
 

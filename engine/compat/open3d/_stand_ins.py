@@ -40,9 +40,7 @@ _MACHINES = {
 _PAGE = 0x10000
 _NEEDED, _HASH, _STRTAB, _SYMTAB, _STRSZ, _SYMENT, _SONAME = 1, 4, 5, 6, 10, 11, 14
 _VERSYM, _VERDEF, _VERDEFNUM = 0x6FFFFFF0, 0x6FFFFFFC, 0x6FFFFFFD
-_SYMBOL = np.dtype(
-    {"names": ["name", "section"], "formats": ["<u4", "<u2"], "offsets": [0, 6], "itemsize": 24}
-)
+_SYMBOL = np.dtype([("name", "<u4"), ("kind", "V2"), ("section", "<u2"), ("value", "V16")])
 #: What keeps the memory files open, so that their libraries stay.
 _kept: list[int] = []
 

@@ -43,7 +43,9 @@ def _sampled(image: NDArray[np.uint8], uvs: NDArray[np.float64]) -> NDArray[np.f
     bordered[1:-1, 1:-1] = image
     u = np.clip(np.nan_to_num(uvs[:, 0]) * width + 0.5, 0.0, width + 1.0)
     v = np.clip(np.nan_to_num(uvs[:, 1]) * height + 0.5, 0.0, height + 1.0)
-    column, row = (np.minimum(np.floor(at), most).astype(np.intp) for at, most in ((u, width), (v, height)))
+    column, row = (
+        np.minimum(np.floor(at), most).astype(np.intp) for at, most in ((u, width), (v, height))
+    )
     across, down = (u - column)[:, np.newaxis], (v - row)[:, np.newaxis]
     upper = bordered[row, column] * (1.0 - across) + bordered[row, column + 1] * across
     lower = bordered[row + 1, column] * (1.0 - across) + bordered[row + 1, column + 1] * across

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
-
-import math
 
 from ...apps.viewer.show import show
 from ...base.linalg import look_at

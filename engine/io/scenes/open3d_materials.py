@@ -1,9 +1,8 @@
 """Materials of Open3D's renderer as the engine's.
 
 In: an ``open3d.visualization.rendering.MaterialRecord``, images of Open3D. Out: a `Material`,
-textures. Base colours of
-lit materials are linear light, those of others and images display values, as Open3D's shaders read
-them.
+textures. Base colours of lit materials are linear light, those of others and images display values,
+as Open3D's shaders read them.
 """
 
 from __future__ import annotations
@@ -45,10 +44,8 @@ def bytes_of_image(image: Any) -> NDArray[np.uint8]:
 
 
 def texture_of_image(image: Any, *, is_color: bool = True) -> Texture:
-    """Return a texture of an image whose first row lies at v = 0, as Open3D draws it."""
-    return Texture(
-        bytes_of_image(image)[::-1], color_space="srgb" if is_color else "linear", wrap="repeat"
-    )
+    """Return a texture of an image of a material, whose first row lies at v = 1."""
+    return Texture(bytes_of_image(image), color_space="srgb" if is_color else "linear")
 
 
 def material_of_record(record: Any) -> Material:
@@ -60,10 +57,10 @@ def material_of_record(record: Any) -> Material:
     is_clear = record.shader.endswith("Transparency") or record.has_alpha
     alpha = float(color[3]) if is_clear else 1.0
     is_unlit = record.shader in _UNLIT
-    rgb = color[:3].tolist()
+    red, green, blue = (color[:3] * alpha).tolist()  # twice in all, as in Filament
     material = Material(
-        color=(*rgb, alpha) if is_unlit else linear(*rgb, alpha),
-        two_sided=True,
+        color=(red, green, blue, alpha) if is_unlit else linear(red, green, blue, alpha),
+        two_sided=not is_clear,  # of glass, Filament shows the nearest surface alone
         alpha_mode="blend" if is_clear else "opaque",
         unlit=is_unlit,
     )
@@ -98,7 +95,7 @@ def _make_physical(material: Material, record: Any) -> None:
         material.normal_texture = texture_of_image(record.normal_img, is_color=False)
     packed = packed_map(record)
     if packed is not None:
-        texture = Texture(packed[::-1], color_space="linear")
+        texture = Texture(packed, color_space="linear")
         material.metallic_roughness_texture = material.occlusion_texture = texture
 
 

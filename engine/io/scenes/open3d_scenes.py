@@ -19,9 +19,10 @@ from ...errors import InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
+from ...model.materials.textures import Texture
 from ...model.scene.scene import Scene
 from .meshio_scenes import scene_from_meshio
-from .open3d_materials import material_of_record, texture_of_image
+from .open3d_materials import bytes_of_image, material_of_record
 from .voxel_faces import CUBE_EDGES, cube_faces, outer_faces
 
 #: The lines of boxes, as rows of their ``get_box_points()``.
@@ -100,8 +101,13 @@ def _dress(mesh: Mesh, geometry: Any, images: list[Any]) -> None:
             f"textures: found {ids.min()}..{ids.max()}"
         )
     mesh.colors = None
-    mesh.materials = [Material(texture=texture_of_image(image)) for image in images]
+    mesh.materials = [Material(texture=_texture(image)) for image in images]
     mesh.material_ids = ids
+
+
+def _texture(image: Any) -> Texture:
+    """Return a texture of an image of a mesh, whose first row lies at v = 0."""
+    return Texture(bytes_of_image(image)[::-1])
 
 
 def _mesh_of_points(geometry: Any) -> Mesh:

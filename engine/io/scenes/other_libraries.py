@@ -1,7 +1,7 @@
 """Scenes of what other libraries hold: trimesh, PyVista, meshio and Open3D.
 
-In: any object, or a list of them. Out: a `Scene` if a library of this list made it. None of them is imported here: who
-has such an object has imported its library.
+In: any object, or a list of them. Out: a `Scene` if a library of this list made it. None of them is
+imported here: who has such an object has imported its library.
 """
 
 from __future__ import annotations

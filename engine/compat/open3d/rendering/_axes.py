@@ -22,9 +22,7 @@ def axes_mesh(box):
     mesh.compute_vertex_normals()
     mesh.paint_uniform_color((0.5, 0.5, 0.5))
     for axis, order in enumerate(_TURNS):
-        arrow = make.create_arrow(
-            0.0025 * length, 0.0075 * length, 0.975 * length, 0.025 * length
-        )
+        arrow = make.create_arrow(0.0025 * length, 0.0075 * length, 0.975 * length, 0.025 * length)
         arrow.compute_vertex_normals()
         arrow.paint_uniform_color(np.eye(3)[axis])
         pose = np.eye(4)

@@ -76,8 +76,7 @@ def _equirectangular(faces: NDArray[np.float32]) -> NDArray[np.float32]:
     level = linalg.cos(rise)[:, np.newaxis]
     x, z = level * linalg.cos(turn), level * linalg.sin(turn)
     y = np.broadcast_to(linalg.sin(rise)[:, np.newaxis], x.shape)
-    # Filament's files are mirrored in x.
-    face, s, t = _on_faces(-x, y, z)
+    face, s, t = _on_faces(x, y, z)
     column = np.clip((s * 0.5 + 0.5) * side - 0.5, 0.0, side - 1.0)
     row = np.clip((t * 0.5 + 0.5) * side - 0.5, 0.0, side - 1.0)
     left, top = (np.minimum(at.astype(np.intp), max(side - 2, 0)) for at in (column, row))
@@ -89,7 +88,7 @@ def _equirectangular(faces: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def _on_faces(x, y, z):
-    """Return the face of each direction, and its place there, from -1 to 1 to the right and down."""
+    """Return the face of each direction, and where there, from -1 to 1 to the right and down."""
     ax, ay, az = abs(x), abs(y), abs(z)
     on_x, on_y = (ax >= ay) & (ax >= az), (ay > ax) & (ay >= az)
     face = np.where(on_x, np.where(x > 0, 0, 1), 0)

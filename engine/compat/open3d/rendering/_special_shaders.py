@@ -13,6 +13,8 @@ from ....rendering.frame import Frame
 from ._things import BY_DEPTH, Thing
 
 _HEAT = np.array([1.8, 1.14, 0.3])
+#: Light below 0, which the heat map has at its ends, shows as the brightest in Filament.
+_BRIGHTEST = 65504.0
 
 
 def special_colors(light: NDArray[np.float64], frame: Frame, things: dict[int, Thing]) -> None:
@@ -30,7 +32,9 @@ def _heat(depth: NDArray[np.float64], near: float, far: float) -> NDArray[np.flo
     place = -far / (1.0 + (far - near) / depth)
     share = 4.0 * (place + near) / (near - far)
     shifted = share[:, np.newaxis] * 2.1 - _HEAT
-    return np.clip(1.0 - shifted * shifted, 0.0, 1.0)
+    heat = 1.0 - shifted * shifted
+    heat[(heat < 0).any(axis=1)] = _BRIGHTEST
+    return heat
 
 
 def _digits(depth: NDArray[np.float64], near: float, far: float) -> NDArray[np.float64]:

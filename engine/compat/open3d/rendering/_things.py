@@ -62,10 +62,9 @@ class Thing:
 
     @property
     def size(self) -> tuple[float, float]:
-        """The size of its points and the width of its lines, in pixels."""
+        """The size of its points in pixels, and ``line_width`` of wide lines; 0 of thin ones."""
         is_wide = self.record.shader == "unlitLine"
-        width = float(self.record.line_width) if is_wide else 1.0
-        return float(self.record.point_size), width
+        return float(self.record.point_size), float(self.record.line_width) if is_wide else 0.0
 
     def dress(self, record: Any, planes: tuple[float, float]) -> None:
         """Take another material."""

@@ -1,8 +1,8 @@
 """Filament's tone mapping, by which Open3D's offscreen pictures are made.
 
 In: linear light. Out: light to be shown. It is a fit of the ACES output transform for monitors,
-with 1/0.6 of its light (Filament's "ACES legacy"); colours are those of Rec. 2020 meanwhile. In
-float64, by single operations, so that a picture has the same bytes everywhere.
+with 1/0.6 of its light (Filament's "ACES legacy"). In float64, by single operations, so that a
+picture has the same bytes everywhere.
 """
 
 from __future__ import annotations
@@ -23,8 +23,6 @@ _D65, _ACES_WHITE = (0.31271, 0.32902), (0.32168, 0.33767)
 _REC709 = ((0.640, 0.330), (0.300, 0.600), (0.150, 0.060))
 _AP0 = ((0.7347, 0.2653), (0.0, 1.0), (0.0001, -0.077))
 _AP1 = ((0.713, 0.293), (0.165, 0.830), (0.128, 0.044))
-#: Bradford's cone responses, for changes of the white point.
-_BRADFORD = ((0.8951, 0.2664, -0.1614), (-0.7502, 1.7135, 0.0367), (0.0389, -0.0685, 1.0296))
 
 
 def tone_mapped(light: _Floats) -> _Floats:
@@ -34,7 +32,9 @@ def tone_mapped(light: _Floats) -> _Floats:
     color = _less_red(color)
     color = np.clip(_times(_AP0_TO_AP1, color), 0.0, 65504.0)
     color = _toward_grey(color, 0.96) / 0.6
-    color = color * (2.785085 * color + 0.107772) / (color * (2.936045 * color + 0.887122) + 0.806889)
+    color = (
+        color * (2.785085 * color + 0.107772) / (color * (2.936045 * color + 0.887122) + 0.806889)
+    )
     # A viewer in a dim room: luminance to the power 0.9811, colours as they are.
     luminance = _luminance(color)
     shown = np.where(luminance > 0, power(luminance, 0.9811), 0.0)
@@ -109,18 +109,10 @@ def _to_xyz(primaries, white: tuple[float, float]) -> _Floats:
     return columns * amounts
 
 
-def _adapted(start: tuple[float, float], end: tuple[float, float]) -> _Floats:
-    """Return the change of the white point in XYZ."""
-    cones = np.array(_BRADFORD)
-    ratios = _times(cones, _white(end)[np.newaxis]) / _times(cones, _white(start)[np.newaxis])
-    return _product(_inverse(cones), cones * ratios.reshape(3, 1))
-
-
 _AP0_XYZ, _AP1_XYZ = _to_xyz(_AP0, _ACES_WHITE), _to_xyz(_AP1, _ACES_WHITE)
 _REC709_XYZ = _to_xyz(_REC709, _D65)
-_TO_AP0 = _product(_inverse(_AP0_XYZ), _product(_adapted(_D65, _ACES_WHITE), _REC709_XYZ))
+# White stays that of the monitor meanwhile, which makes it a little warm: so does Filament.
+_TO_AP0 = _product(_inverse(_AP0_XYZ), _REC709_XYZ)
 _AP0_TO_AP1 = _product(_inverse(_AP1_XYZ), _AP0_XYZ)
-_AP1_TO_REC709 = _product(
-    _inverse(_REC709_XYZ), _product(_adapted(_ACES_WHITE, _D65), _AP1_XYZ)
-)
+_AP1_TO_REC709 = _product(_inverse(_REC709_XYZ), _AP1_XYZ)
 _LUMINANCE = _AP1_XYZ[1]

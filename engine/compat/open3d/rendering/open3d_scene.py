@@ -12,9 +12,9 @@ from ....errors import InvalidArgumentError, warn
 from ....io.scenes.open3d_materials import bytes_of_image
 from .._loading import load
 from ._axes import AXES, axes_mesh
-from .camera import Camera
 from .low_level_scene import Scene
 from .view import View
+from .view_camera import Camera
 
 _own = load().visualization.rendering.Open3DScene
 #: Lux of the environment and of the sun by name of a lighting profile.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ....errors import warn
 from .._loading import load
-from .camera import Camera
+from .view_camera import Camera
 
 _own = load().visualization.rendering.View
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....base import linalg
-from ....model.materials.colors import linear_color, srgb_bytes
+from ....model.materials.colors import linear_color, srgb_bytes, srgb_to_linear_table
 from ....model.materials.linear_colors import linear
 from ....model.scene.cameras import Camera
 from ....model.scene.lights import DirectionalLight, PointLight, SpotLight
@@ -27,9 +27,9 @@ from ._things import Thing, normal_colors
 from ._tone import tone_mapped
 
 if TYPE_CHECKING:
-    from .camera import Camera as ViewCamera
     from .low_level_scene import Lamp
     from .open3d_scene import Open3DScene
+    from .view_camera import Camera as ViewCamera
 
 _EXPOSURE = 1.0 / (1.2 * 16.0**2 * 125.0)
 _OCCLUSION_RADIUS = 0.3  # world units
@@ -59,7 +59,9 @@ class Drawer:
         nearest = np.minimum.reduce(frames)
         shows = np.isfinite(nearest)
         if scene.camera.is_parallel:
-            return np.where(shows, 0.5 - 0.5 * np.where(shows, nearest, 1.0), 0.0).astype(np.float32)
+            return np.where(shows, 0.5 - 0.5 * np.where(shows, nearest, 1.0), 0.0).astype(
+                np.float32
+            )
         return np.where(shows, -np.where(shows, nearest, 0.0), 0.0).astype(np.float32)
 
     def color(self, scene: Open3DScene, size: tuple[int, int]) -> NDArray[np.uint8]:
@@ -100,13 +102,17 @@ class Drawer:
         """
         visible = [thing for thing in source.scene.things.values() if thing.is_visible]
         marks = [thing for thing in visible if thing.arrays.kind != "faces"]
-        sizes = list(dict.fromkeys(_mark_size(thing) for thing in marks)) or [(1.0, 1.0)]
+        sizes = list(dict.fromkeys(_mark_size(thing) for thing in marks)) or [(1.0, 0.0)]
         drawn = []
         for number, (points, width) in enumerate(sizes):
             shown = [
                 thing
                 for thing in visible
-                if (number == 0 if thing.arrays.kind == "faces" else _mark_size(thing) == sizes[number])
+                if (
+                    number == 0
+                    if thing.arrays.kind == "faces"
+                    else _mark_size(thing) == sizes[number]
+                )
             ]
             scene, things = _scene(source, shown, is_lit=is_lit)
             camera = source.camera
@@ -115,14 +121,14 @@ class Drawer:
                 scene,
                 (Camera(matrix), camera.pose),
                 outputs=outputs,
-                cull="none",
+                cull="back",
                 point_size=min(max(points, 1.0), MAX_LINE),
-                line_width=min(max(width, 1.0), MAX_LINE),
+                line_width=_line_width(width, matrix),
                 ambient_occlusion=is_lit
                 and source.view.has_occlusion
                 and source.view.has_post_processing,
                 ambient_occlusion_radius=_OCCLUSION_RADIUS,
-                transparent_outputs=False,
+                transparent_outputs=True,
             )
             drawn.append((frame, things))
         return drawn
@@ -138,9 +144,14 @@ def _end(camera: ViewCamera, things: list[Thing]) -> float:
 
 
 def _mark_size(thing: Thing) -> tuple[float, float]:
-    """Return the size of points or the width of lines, whichever a thing has."""
+    """Return the size of points and the width of lines, of which a thing has one."""
     points, width = thing.size
-    return (points, 1.0) if thing.arrays.kind == "points" else (1.0, width)
+    return (points, 0.0) if thing.arrays.kind == "points" else (1.0, width)
+
+
+def _line_width(width: float, projection: NDArray[np.float64]) -> float:
+    """Return pixels: Open3D's shader makes wide lines wider in narrower views."""
+    return min(max(width * 0.5 * float(projection[1, 1]), 1.0), MAX_LINE)
 
 
 def _scene(
@@ -228,7 +239,9 @@ def _background(scene: Open3DScene, size: tuple[int, int]) -> NDArray[np.float64
     x, y = (x * aspect / own, y) if own < aspect else (x, y * own / aspect)
     rows, columns = (np.flatnonzero(abs(line) <= 0.5) for line in (y, x))
     picture = image[..., :3] if image.shape[2] >= 3 else np.repeat(image[..., :1], 3, axis=2)
-    light[np.ix_(rows, columns)] = _stretched(picture / 255.0, y[rows] + 0.5, x[columns] + 0.5)
+    light[np.ix_(rows, columns)] = _stretched(
+        srgb_to_linear_table()[picture].astype(np.float64), y[rows] + 0.5, x[columns] + 0.5
+    )
     return light
 
 

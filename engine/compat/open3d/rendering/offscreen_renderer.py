@@ -8,9 +8,9 @@ import numpy as np
 
 from ....base.image_size import check_size
 from .._loading import load
-from ._drawing import Drawer
-from .camera import NEAR
+from ._offscreen_pictures import Drawer
 from .open3d_scene import Open3DScene
+from .view_camera import NEAR
 
 
 class OffscreenRenderer:

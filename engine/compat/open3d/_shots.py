@@ -208,6 +208,8 @@ def _depth(shot: Shot, frame: Frame) -> NDArray[np.float32]:
         return frame.depth
     near, far = shot.planes
     seen = np.isfinite(frame.ndc_depth)
+    if not seen.any():
+        return frame.depth
     z = np.where(seen, frame.ndc_depth, 0.0).astype(np.float64)
     depth = 2.0 * near * far / (far + near - z * (far - near))
     return np.where(seen, depth, 0.0).astype(np.float32)

@@ -167,8 +167,11 @@ class ViewControl:
         start = self._start
         start["up_turn"] += y * pixel
         start["right_turn"] += -x * pixel
-        front = _turned(start["front"], start["up"], per_unit * start["right_turn"])
-        self._front = _turned(front, start["right"], -per_unit * start["up_turn"])
+        self._front = _turned(
+            start["front"],
+            (start["right"], -per_unit * start["up_turn"]),
+            (start["up"], per_unit * start["right_turn"]),
+        )
         self._lookat = start["eye"] - self._front * self._distance
         self._up = start["up"]
         kept = dict(start)
@@ -188,13 +191,17 @@ class ViewControl:
 
     def _place(self) -> None:
         """Put the camera where zoom and field of view have it."""
+        with np.errstate(invalid="ignore"):  # of boxes that are not finite
+            self._place_eye()
+        self.reset_camera_local_rotate()
+
+    def _place_eye(self) -> None:
         self._front = _unit(self._front)
         self._right = _unit(_cross(self._up, self._front))
         angle = self.FIELD_OF_VIEW_STEP if self.is_orthogonal else self._field_of_view
         self._view_ratio = self._zoom * self._box.get_max_extent()
         self._distance = self._view_ratio / _tan_half(angle)
         self._eye = self._lookat + self._front * self._distance
-        self.reset_camera_local_rotate()
 
     # ---- cameras and files ----
 
@@ -396,7 +403,8 @@ def _number(value: float, what: str) -> float:
 
 
 def _dot(a: _Vector, b: _Vector) -> float:
-    return float((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2])
+    x, y, z = (float(a[axis]) * float(b[axis]) for axis in range(3))
+    return (x + y) + z
 
 
 def _cross(a: _Vector, b: _Vector) -> _Vector:
@@ -411,10 +419,14 @@ def _unit(vector: _Vector) -> _Vector:
     return vector / math.sqrt(squared) if squared > 0 else vector
 
 
-def _turned(vector: _Vector, axis: _Vector, angle: float) -> _Vector:
-    """Turn a vector about a unit axis by Rodrigues' formula."""
-    along = axis * (_dot(axis, vector) * (1.0 - _cos(angle)))
-    return vector * _cos(angle) + _cross(axis, vector) * _sin(angle) + along
+def _turned(vector: _Vector, last: tuple[_Vector, float], first: tuple[_Vector, float]) -> _Vector:
+    """Turn a vector about two axes, as Eigen does by quaternions, also where axes have no unit."""
+    (v, a), (w, b) = (
+        (axis * _sin(0.5 * angle), _cos(0.5 * angle)) for axis, angle in (last, first)
+    )
+    real, imaginary = a * b - _dot(v, w), w * a + v * b + _cross(v, w)
+    across = 2.0 * _cross(imaginary, vector)
+    return vector + across * real + _cross(imaginary, across)
 
 
 def _cos(angle: float) -> float:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ...base import linalg
+from ...base.image_size import check_size
 from ...errors import FileAccessError, InvalidArgumentError, warn
 from ._keys import CONTROL, PRESS, RELEASE, SHIFT, press
 from ._loading import load
@@ -72,7 +73,7 @@ class Visualizer:
         bool
             True.
         """
-        size = int(width), int(height)
+        size = check_size((int(width), int(height)))
         self._name = str(window_name)
         if self._control is None:
             self._control, self._option = ViewControl(), RenderOption()
@@ -323,15 +324,21 @@ class Visualizer:
         every = [part for _, parts in self._parts.values() for part in parts or ()]
         if self._frame_mesh is not None and option.show_coordinate_frame:
             every += parts_of(self._frame_mesh, RenderOption(), control.box)
+        projection, view = np.eye(4), np.eye(4)
+        if 0 < control.box.get_max_extent() < np.inf:
+            projection, view = control.projection, control.view
+        elif every:
+            warn("the box of all is one point or not finite: nothing shows, as in Open3D")
+            every = []
         self._needs_drawing = False
         self._ordered = Shot(
             parts=every,
             size=control.size,
-            projection=control.projection,
-            view=control.view,
+            projection=projection,
+            view=view,
             planes=control.planes,
             background=np.array(option.background_color),
-            lighting=_lighting(control, option),
+            lighting=_lighting(control, option, linalg.inverse(view)[:3, 3]),
             point_size=float(option.point_size),
             line_width=float(option.line_width),
             shows_back_faces=bool(option.mesh_show_back_face),
@@ -354,12 +361,11 @@ class Visualizer:
         )
 
 
-def _lighting(control: ViewControl, option: RenderOption) -> Lighting:
+def _lighting(control: ViewControl, option: RenderOption, eye: np.ndarray) -> Lighting:
     """Return the lights, which go with the view, and the box."""
     box = control.box
     right, up, front = control.axes
-    eye = linalg.inverse(control.view)[:3, 3]
-    if not option.light_on:
+    if not option.light_on or not np.isfinite(box.get_max_extent()):
         return Lighting(eye, np.zeros((0, 3)), (), np.ones(3))
     extent, middle = box.get_max_extent(), np.array(box.get_center())
     places = [

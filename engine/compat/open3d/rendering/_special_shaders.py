@@ -17,15 +17,19 @@ _HEAT = np.array([1.8, 1.14, 0.3])
 _BRIGHTEST = 65504.0
 
 
-def special_colors(light: NDArray[np.float64], frame: Frame, things: dict[int, Thing]) -> None:
-    """Put the colours of what is drawn by its depth into ``light``, (H, W, 3)."""
+def special_colors(
+    light: NDArray[np.float64], frame: Frame, things: dict[int, Thing], near: float
+) -> None:
+    """Put the colours of what is drawn by its depth into ``light``, (H, W, 3).
+
+    ``near`` is the camera's now; heat goes by the planes of when the material was set.
+    """
     for number, thing in things.items():
         if thing.record.shader in BY_DEPTH:
             where = np.nonzero((frame.object_id == number) & (frame.depth > 0))
             depth = frame.depth[where].astype(np.float64)
-            near, far = thing.planes
-            shown = _heat if thing.record.shader == "depth" else _digits
-            light[where] = shown(depth, near, far)
+            is_heat = thing.record.shader == "depth"
+            light[where] = _heat(depth, *thing.planes) if is_heat else _digits(depth, near)
 
 
 def _heat(depth: NDArray[np.float64], near: float, far: float) -> NDArray[np.float64]:
@@ -37,7 +41,7 @@ def _heat(depth: NDArray[np.float64], near: float, far: float) -> NDArray[np.flo
     return heat
 
 
-def _digits(depth: NDArray[np.float64], near: float, far: float) -> NDArray[np.float64]:
+def _digits(depth: NDArray[np.float64], near: float) -> NDArray[np.float64]:
     whole = np.floor((1.0 - np.clip(near / depth, 0.0, 1.0)) * 16777215.0).astype(np.int64)
     digits = np.stack([whole >> 16, whole >> 8 & 255, whole & 255], axis=1)
     return digits / 255.0

@@ -23,6 +23,7 @@ from ....model.materials.material import Material
 from .._loading import load
 
 _GREY = 0.5
+_PADDING = 0.1  # of the boxes of flat clouds, as in Open3D
 #: Shaders drawn from depths or normals instead of a material.
 BY_DEPTH = ("depth", "depthValue")
 _KNOWN = (
@@ -104,6 +105,8 @@ def thing_of(geometry: Any, record: Any, planes: tuple[float, float]) -> Thing |
     if record.shader == "defaultLit" and arrays.kind == "faces" and arrays.normals is None:
         warn("a shader with lighting is used, but the geometry has no normals")
     box = geometry.get_axis_aligned_bounding_box()
+    if arrays.kind == "points" and box.is_empty():
+        box = type(box)(np.asarray(box.min_bound) - _PADDING, np.asarray(box.max_bound) + _PADDING)
     return Thing(arrays, record, box, _mesh(arrays, record), np.eye(4), planes)
 
 

@@ -173,7 +173,7 @@ class Renderer(rendering.Renderer):
         Parameters
         ----------
         scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-            An (N, 3) array holds points. Other libraries are trimesh, PyVista and meshio.
+            An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio and Open3D.
         options, **keywords
             As for `render`.
 
@@ -206,7 +206,7 @@ class Renderer(rendering.Renderer):
         Parameters
         ----------
         scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-            An (N, 3) array holds points. Other libraries are trimesh, PyVista and meshio.
+            An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio and Open3D.
             A file is opened and seen as by ``engine3d render``; an array holds points. Of a node
             its subtree is drawn, at its world pose.
         camera : None, Node or (Camera, pose)

@@ -23,7 +23,6 @@ from ._parts import WIRE, Cloud, Part, Surface
 from ._phong import Lighting, phong, turned_to
 from ._texels import texels
 
-_OUTPUTS = ("color", "object_id", "depth", "ndc_depth")
 _LIT = ("face_id", "barycentric", "world_position")
 
 
@@ -58,38 +57,17 @@ class Shot:
     shows_wires: bool
 
 
-@dataclass(frozen=True)
-class Picture:
-    """A drawn shot.
-
-    Attributes
-    ----------
-    color : (H, W, 3) uint8
-    depth : (H, W) float32
-        Along the view axis, as Open3D finds it from its depth buffer; 0 is the background.
-    ndc_depth : (H, W) float32
-        From -1 to 1; infinite is the background.
-    """
-
-    color: NDArray[np.uint8]
-    depth: NDArray[np.float32]
-    ndc_depth: NDArray[np.float32]
-
-
 class Drawer:
     """Draws shots, and keeps the renderer from one to the next."""
 
     def __init__(self) -> None:
         self._renderer: Renderer | None = None
 
-    def draw(self, shot: Shot) -> Picture:
-        """Draw a shot."""
-        if self._renderer is None:
-            self._renderer = Renderer(shot.size, color_space="linear")
-        elif self._renderer.size != shot.size:
-            self._renderer.resize(shot.size)
+    def color(self, shot: Shot) -> NDArray[np.uint8]:
+        """Return the colours of a shot, (H, W, 3) uint8."""
         surfaces = [part.surface for part in shot.parts if part.surface is not None]
-        frame, owners = self._frame(shot, (*_OUTPUTS, *(_LIT if surfaces else ())), wires=False)
+        outputs = "color", "object_id", "ndc_depth", *(_LIT if surfaces else ())
+        frame, owners = self._frame(shot, outputs)
         color = frame.color[..., :3].copy()
         for number, part in owners.items():
             if part.surface is not None:
@@ -97,21 +75,37 @@ class Drawer:
                 color[where] = _coded(_surface_colors(part.surface, frame, where, shot))
         if shot.shows_wires and any(part.has_wires for part in shot.parts):
             self._add_wires(shot, frame, color)
-        return Picture(color, _depth(shot, frame), frame.ndc_depth)
+        return color
+
+    def depth(self, shot: Shot) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Return the depths of a shot.
+
+        Returns
+        -------
+        depth : (H, W) float32
+            Along the view axis, as Open3D finds it from its depth buffer; 0 is the background.
+        ndc_depth : (H, W) float32
+            From -1 to 1; infinite is the background.
+        """
+        frame, _ = self._frame(shot, ("depth", "ndc_depth"))
+        return _depth(shot, frame), frame.ndc_depth
 
     def _frame(
-        self, shot: Shot, outputs: tuple[str, ...], *, wires: bool, **options
+        self, shot: Shot, outputs: tuple[str, ...], *, wires: bool = False, **options
     ) -> tuple[Frame, dict[int, Part]]:
         """Draw what shows, unlit but for points; return it, and the parts by their numbers."""
+        if self._renderer is None:
+            self._renderer = Renderer(shot.size, color_space="linear")
+        elif self._renderer.size != shot.size:
+            self._renderer.resize(shot.size)
         scene = Scene(background=linear(*np.clip(shot.background, 0.0, 1.0).tolist()))
         owners = {}
         for part in shot.parts:
             if wires and not part.has_wires:
                 continue
-            if part.cloud is not None:
+            if part.cloud is not None and "color" in outputs:
                 part.mesh.colors = linear(_cloud_colors(part.cloud, shot))
             owners[scene.add(part.mesh).id] = part
-        assert self._renderer is not None
         frame = self._renderer.render(
             scene,
             (Camera(shot.projection), linalg.inverse(shot.view)),
@@ -125,20 +119,27 @@ class Drawer:
 
     def _add_wires(self, shot: Shot, frame: Frame, color: NDArray[np.uint8]) -> None:
         """Draw the edges of faces over a picture, where nothing is before them."""
+        bare, _ = self._frame(shot, ("color",), wires=True)
+        mark = _unused(bare.color)
         wires, _ = self._frame(
             shot,
             ("color", "ndc_depth"),
             wires=True,
             wireframe="overlay",
-            line_color=linear(0.0, 0.0, 0.0),
+            line_color=tuple(mark.tolist()),
             line_width=1.0,
         )
-        bare, _ = self._frame(shot, ("color",), wires=True)
-        # Edges are where the overlay changes the picture, and where it is black already.
-        edges = (wires.color[..., :3] == 0).all(axis=2) & (
-            (wires.color != bare.color).any(axis=2) | (bare.color[..., :3] == 0).all(axis=2)
-        )
+        edges = (wires.color[..., :3] == mark).all(axis=2)
         color[edges & (wires.ndc_depth <= frame.ndc_depth)] = round(WIRE * 255.0)
+
+
+def _unused(color: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Return a colour that no pixel has."""
+    for red in range(256):
+        mark = np.array([red, 1, 254], np.uint8)
+        if not (color[..., :3] == mark).all(axis=2).any():
+            return mark
+    return np.zeros(3, np.uint8)  # a picture that has all of these has no edges to see
 
 
 def _surface_colors(surface: Surface, frame: Frame, where, shot: Shot) -> NDArray[np.float64]:

@@ -66,7 +66,7 @@ class VisualizerWindow:
             Whether to wait a moment for it.
         """
         if self._visualizer._ordered is not self._shown:
-            self._window.present(self._visualizer._drawn(False).color)
+            self._window.present(self._visualizer._colors(False))
             self._shown = self._visualizer._ordered
         for event in self._window.events(PATIENCE if wait else 0.0):
             self._take(event)

@@ -14,7 +14,7 @@ from ._keys import CONTROL, PRESS, RELEASE, SHIFT, press
 from ._loading import load
 from ._parts import Part, kind_of, parts_of
 from ._phong import Lighting
-from ._shots import Drawer, Picture, Shot
+from ._shots import Drawer, Shot
 from .render_option import RenderOption
 from .view_control import ViewControl
 
@@ -36,7 +36,7 @@ class Visualizer:
         self._frame_mesh = None
         self._drawer = Drawer()
         self._ordered: Shot | None = None
-        self._picture: tuple[Shot, Picture] | None = None
+        self._picture: tuple[Shot, np.ndarray] | None = None
         self._needs_drawing = True
         self._should_close = False
         self._animation = None
@@ -268,24 +268,24 @@ class Visualizer:
         do_render : bool
             Draw what is there now; otherwise it is what `poll_events` last drew.
         """
-        return _image(self._drawn(do_render).color.astype(np.float32) / np.float32(255.0))
+        return _image(self._colors(do_render).astype(np.float32) / np.float32(255.0))
 
     def capture_screen_image(self, filename, do_render: bool = False) -> None:
         """Write the picture into a file, .png or .jpg; without a name, into one of Open3D's."""
         path, camera = _names(filename, "ScreenCapture", "ScreenCamera", "png")
-        _write(path, _image(self._drawn(do_render).color))
+        _write(path, _image(self._colors(do_render)))
         self._write_camera(camera)
 
     def capture_depth_float_buffer(self, do_render: bool = False):
         """Return depths as ``open3d.geometry.Image``: (H, W) float32, world units, 0 is nothing."""
-        return _image(self._drawn(do_render).depth)
+        return _image(self._depths(do_render)[0])
 
     def capture_depth_image(
         self, filename, do_render: bool = False, depth_scale: float = 1000.0
     ) -> None:
         """Write depths times ``depth_scale`` into a picture of 16 bits, up to 32767."""
         path, camera = _names(filename, "DepthCapture", "DepthCamera", "png")
-        depth = self._drawn(do_render).depth.astype(np.float64)
+        depth = self._depths(do_render)[0].astype(np.float64)
         scaled = np.floor(np.clip(depth * float(depth_scale), 0.0, _DEPTH_MOST) + 0.5)
         _write(path, _image(scaled.astype(np.uint16)))
         self._write_camera(camera)
@@ -295,9 +295,9 @@ class Visualizer:
     ) -> None:
         """Write a point for each pixel that shows something, in view or world space."""
         path, camera = _names(filename, "DepthCapture", "DepthCamera", "ply")
-        picture = self._drawn(do_render)
-        shot = self._picture[0]
-        points = _unprojected(picture.ndc_depth, shot.projection)
+        _, ndc_depth = self._depths(do_render)
+        shot = self._ordered
+        points = _unprojected(ndc_depth, shot.projection)
         if convert_to_world_coordinate:
             points = linalg.transform_points(linalg.inverse(shot.view), points)
         o3d = load()
@@ -346,12 +346,18 @@ class Visualizer:
         )
         return self._ordered
 
-    def _drawn(self, anew: bool) -> Picture:
-        """Return the ordered picture, or with True one of what is there now."""
-        shot = self._order() if anew or self._ordered is None else self._ordered
+    def _shot(self, anew: bool) -> Shot:
+        """Return the ordered shot, or with True one of what is there now."""
+        return self._order() if anew or self._ordered is None else self._ordered
+
+    def _colors(self, anew: bool) -> np.ndarray:
+        shot = self._shot(anew)
         if self._picture is None or self._picture[0] is not shot:
-            self._picture = shot, self._drawer.draw(shot)
+            self._picture = shot, self._drawer.color(shot)
         return self._picture[1]
+
+    def _depths(self, anew: bool) -> tuple[np.ndarray, np.ndarray]:
+        return self._drawer.depth(self._shot(anew))
 
     def _add_axes(self) -> None:
         """Make the coordinate frame that ``show_coordinate_frame`` shows."""

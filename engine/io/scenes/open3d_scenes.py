@@ -62,8 +62,8 @@ def _scene_of_model(model: Any) -> Scene:
     scene = Scene()
     for part in model.meshes:
         mesh = mesh_of_triangles(part.mesh)
-        mesh.materials = [material_of_record(model.materials[part.material_idx])]
         mesh.material_ids = np.zeros(len(mesh.faces), np.int32)
+        mesh.materials = [material_of_record(model.materials[part.material_idx])]
         scene.add(mesh, name=part.mesh_name)
     return scene
 

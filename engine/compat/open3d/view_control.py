@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from ...base import linalg
 from ...errors import InvalidArgumentError, warn
 from ._loading import load
+from ._vectors import Vector, cos, cross, dot, number, sin, tan_half, turned, unit, vector
 
-_Vector = NDArray[np.float64]
 _TOLERANCE = 1e-6  # pixels, by which principal points may differ
 
 
@@ -77,31 +77,31 @@ class ViewControl:
 
     def set_lookat(self, lookat: ArrayLike) -> None:
         """Set the point in the middle of the picture, world space."""
-        self._lookat = _vector(lookat, "lookat")
+        self._lookat = vector(lookat, "lookat")
         self._place()
 
     def set_up(self, up: ArrayLike) -> None:
         """Set the direction that is upwards in the picture."""
-        self._up = _vector(up, "up")
+        self._up = vector(up, "up")
         self._place()
 
     def set_front(self, front: ArrayLike) -> None:
         """Set the direction from the point looked at towards the camera."""
-        self._front = _vector(front, "front")
+        self._front = vector(front, "front")
         self._place()
 
     def set_zoom(self, zoom: float) -> None:
         """Set the height of the picture, as half of it over the box's longest side."""
-        self._zoom = _number(zoom, "zoom")
+        self._zoom = number(zoom, "zoom")
         self._place()
 
     def set_constant_z_near(self, z_near: float) -> None:
         """Fix the near plane's distance."""
-        self._constant_near = _number(z_near, "z_near")
+        self._constant_near = number(z_near, "z_near")
 
     def set_constant_z_far(self, z_far: float) -> None:
         """Fix the far plane's distance."""
-        self._constant_far = _number(z_far, "z_far")
+        self._constant_far = number(z_far, "z_far")
 
     def unset_constant_z_near(self) -> None:
         """Let the near plane follow the box again."""
@@ -117,13 +117,13 @@ class ViewControl:
 
     def change_field_of_view(self, step: float = 0.45) -> None:
         """Widen the view by 5 degrees times ``step``, within 5 to 90 degrees."""
-        wanted = self._field_of_view + _number(step, "step") * self.FIELD_OF_VIEW_STEP
+        wanted = self._field_of_view + number(step, "step") * self.FIELD_OF_VIEW_STEP
         self._field_of_view = max(min(wanted, self.FIELD_OF_VIEW_MAX), self.FIELD_OF_VIEW_MIN)
         self._place()
 
     def scale(self, scale: float) -> None:
         """Zoom out by steps, as the wheel does."""
-        wanted = self._zoom + _number(scale, "scale") * self.ZOOM_STEP
+        wanted = self._zoom + number(scale, "scale") * self.ZOOM_STEP
         self._zoom = max(min(wanted, self.ZOOM_MAX), self.ZOOM_MIN)
         self._place()
 
@@ -131,10 +131,10 @@ class ViewControl:
         """Turn the view as a drag by (x, y) pixels does."""
         across = x * self.ROTATION_RADIAN_PER_PIXEL
         along = y * self.ROTATION_RADIAN_PER_PIXEL
-        self._front = _unit(self._front * _cos(across) - self._right * _sin(across))
-        self._right = _unit(_cross(self._up, self._front))
-        self._front = _unit(self._front * _cos(along) + self._up * _sin(along))
-        self._up = _unit(_cross(self._front, self._right))
+        self._front = unit(self._front * cos(across) - self._right * sin(across))
+        self._right = unit(cross(self._up, self._front))
+        self._front = unit(self._front * cos(along) + self._up * sin(along))
+        self._up = unit(cross(self._front, self._right))
         self._place()
 
     def translate(self, x: float, y: float, xo: float = 0.0, yo: float = 0.0) -> None:
@@ -146,17 +146,17 @@ class ViewControl:
     def roll(self, x: float) -> None:
         """Turn the picture as a drag by x pixels with Shift does."""
         turn = x * self.ROTATION_RADIAN_PER_PIXEL
-        along = self._front * (_dot(self._front, self._up) * (1.0 - _cos(turn)))
-        self._up = self._up * _cos(turn) + _cross(self._front, self._up) * _sin(turn) + along
+        along = self._front * (dot(self._front, self._up) * (1.0 - cos(turn)))
+        self._up = self._up * cos(turn) + cross(self._front, self._up) * sin(turn) + along
         self._place()
 
     def camera_local_translate(self, forward: float, right: float, up: float) -> None:
         """Move the camera by world units along its own axes."""
         self._lookat = (
             self._lookat
-            - _unit(self._front) * _number(forward, "forward")
-            + _unit(self._right) * _number(right, "right")
-            + _unit(self._up) * _number(up, "up")
+            - unit(self._front) * number(forward, "forward")
+            + unit(self._right) * number(right, "right")
+            + unit(self._up) * number(up, "up")
         )
         self._place()
 
@@ -167,7 +167,7 @@ class ViewControl:
         start = self._start
         start["up_turn"] += y * pixel
         start["right_turn"] += -x * pixel
-        self._front = _turned(
+        self._front = turned(
             start["front"],
             (start["right"], -per_unit * start["up_turn"]),
             (start["up"], per_unit * start["right_turn"]),
@@ -196,11 +196,11 @@ class ViewControl:
         self.reset_camera_local_rotate()
 
     def _place_eye(self) -> None:
-        self._front = _unit(self._front)
-        self._right = _unit(_cross(self._up, self._front))
+        self._front = unit(self._front)
+        self._right = unit(cross(self._up, self._front))
         angle = self.FIELD_OF_VIEW_STEP if self.is_orthogonal else self._field_of_view
         self._view_ratio = self._zoom * self._box.get_max_extent()
-        self._distance = self._view_ratio / _tan_half(angle)
+        self._distance = self._view_ratio / tan_half(angle)
         self._eye = self._lookat + self._front * self._distance
 
     # ---- cameras and files ----
@@ -224,15 +224,15 @@ class ViewControl:
             return parameters
         self._place()
         width, height = self._size
-        focus = height / _tan_half(self._field_of_view) / 2.0
+        focus = height / tan_half(self._field_of_view) / 2.0
         parameters.intrinsic = camera.PinholeCameraIntrinsic(
             width, height, focus, focus, width / 2.0 - 0.5, height / 2.0 - 0.5
         )
         extrinsic = np.zeros((4, 4))
-        rows = _unit(self._right), -_unit(self._up), -_unit(self._front)
-        for number, row in enumerate(rows):
-            extrinsic[number, :3] = row
-            extrinsic[number, 3] = -_dot(row, self._eye)
+        rows = unit(self._right), -unit(self._up), -unit(self._front)
+        for place, row in enumerate(rows):
+            extrinsic[place, :3] = row
+            extrinsic[place, 3] = -dot(row, self._eye)
         extrinsic[3, 3] = 1.0
         parameters.extrinsic = extrinsic
         return parameters
@@ -277,8 +277,8 @@ class ViewControl:
         self._right, self._up, self._front = map(np.array, (self._right, self._up, self._front))
         self._eye = linalg.transform_points(linalg.inverse(extrinsic), np.zeros((1, 3)))[0]
         extent = self._box.get_max_extent()
-        away = abs(_dot(self._eye - np.array(self._box.get_center()), self._front))
-        tan = _tan_half(self._field_of_view)
+        away = abs(dot(self._eye - np.array(self._box.get_center()), self._front))
+        tan = tan_half(self._field_of_view)
         self._zoom = away * tan / extent if extent else self.ZOOM_DEFAULT
         if not allow_arbitrary:
             self._zoom = max(min(self._zoom, self.ZOOM_MAX), self.ZOOM_MIN)
@@ -322,7 +322,7 @@ class ViewControl:
                 view["boundingbox_min"], view["boundingbox_max"]
             )
             angle, zoom = float(view["field_of_view"]), float(view["zoom"])
-            vectors = [_vector(view[name], name) for name in ("lookat", "up", "front")]
+            vectors = [vector(view[name], name) for name in ("lookat", "up", "front")]
         except (KeyError, TypeError, ValueError) as error:
             raise InvalidArgumentError(f"no view status of Open3D: {error}") from None
         self._box, self._field_of_view, self._zoom = box, angle, zoom
@@ -357,7 +357,7 @@ class ViewControl:
             matrix[2, 3] = -(far + near) / (far - near)
             matrix[3, 3] = 1.0
         else:
-            tan = _tan_half(self._field_of_view)
+            tan = tan_half(self._field_of_view)
             matrix[0, 0], matrix[1, 1] = 1.0 / aspect / tan, 1.0 / tan
             matrix[2, 2] = -(far + near) / (far - near)
             matrix[2, 3] = -2.0 * far * near / (far - near)
@@ -367,75 +367,16 @@ class ViewControl:
     @property
     def view(self) -> NDArray[np.float64]:
         """view_from_world, (4, 4), rounded to float32 as Open3D's."""
-        front = _unit(self._eye - self._lookat)
-        right = _unit(_cross(_unit(self._up), front))
-        up = _unit(_cross(front, right))
+        front = unit(self._eye - self._lookat)
+        right = unit(cross(unit(self._up), front))
+        up = unit(cross(front, right))
         matrix = np.eye(4)
-        for number, row in enumerate((right, up, front)):
-            matrix[number, :3] = row
-            matrix[number, 3] = -_dot(row, self._eye)
+        for place, row in enumerate((right, up, front)):
+            matrix[place, :3] = row
+            matrix[place, 3] = -dot(row, self._eye)
         return matrix.astype(np.float32).astype(np.float64)
 
     @property
-    def axes(self) -> tuple[_Vector, _Vector, _Vector]:
+    def axes(self) -> tuple[Vector, Vector, Vector]:
         """Right, up and front, world space: what places the lights."""
         return self._right, self._up, self._front
-
-
-def _vector(value: ArrayLike, what: str) -> _Vector:
-    try:
-        vector = np.array(value, np.float64).reshape(-1)
-    except (TypeError, ValueError):
-        vector = np.zeros(0)
-    if vector.shape != (3,) or not np.isfinite(vector).all():
-        raise InvalidArgumentError(f"{what} must be three finite numbers, not {value!r}")
-    return vector
-
-
-def _number(value: float, what: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not math.isfinite(number):
-        raise InvalidArgumentError(f"{what} must be a finite number, not {value!r}")
-    return number
-
-
-def _dot(a: _Vector, b: _Vector) -> float:
-    x, y, z = (float(a[axis]) * float(b[axis]) for axis in range(3))
-    return (x + y) + z
-
-
-def _cross(a: _Vector, b: _Vector) -> _Vector:
-    return np.array(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
-
-
-def _unit(vector: _Vector) -> _Vector:
-    """Return a vector of length 1; zero stays zero, as Eigen's ``normalized`` leaves it."""
-    squared = _dot(vector, vector)
-    return vector / math.sqrt(squared) if squared > 0 else vector
-
-
-def _turned(vector: _Vector, last: tuple[_Vector, float], first: tuple[_Vector, float]) -> _Vector:
-    """Turn a vector about two axes, as Eigen does by quaternions, also where axes have no unit."""
-    (v, a), (w, b) = (
-        (axis * _sin(0.5 * angle), _cos(0.5 * angle)) for axis, angle in (last, first)
-    )
-    real, imaginary = a * b - _dot(v, w), w * a + v * b + _cross(v, w)
-    across = 2.0 * _cross(imaginary, vector)
-    return vector + across * real + _cross(imaginary, across)
-
-
-def _cos(angle: float) -> float:
-    return float(linalg.cos(angle))
-
-
-def _sin(angle: float) -> float:
-    return float(linalg.sin(angle))
-
-
-def _tan_half(degrees: float) -> float:
-    return float(linalg.tan(degrees * 0.5 / 180.0 * math.pi))

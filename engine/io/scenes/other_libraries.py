@@ -1,4 +1,4 @@
-"""Scenes of what other libraries hold: trimesh, PyVista, meshio and Open3D.
+"""Scenes of what other libraries hold: trimesh, PyVista, meshio, Open3D and pandas.
 
 In: any object, or a list of them. Out: a `Scene` if a library of this list made it. None of them is
 imported here: who has such an object has imported its library.
@@ -12,12 +12,14 @@ from typing import Any
 from ...model.scene.scene import Scene
 from .meshio_scenes import scene_from_meshio
 from .open3d_scenes import scene_from_open3d
+from .pandas_scenes import scene_from_pandas
 from .pyvista_scenes import scene_from_pyvista
 from .trimesh_scenes import scene_from_trimesh
 
 _SCENES: dict[str, Callable[[Any], Scene | None]] = {
     "meshio": scene_from_meshio,
     "open3d": scene_from_open3d,
+    "pandas": scene_from_pandas,
     "pyvista": scene_from_pyvista,
     "trimesh": scene_from_trimesh,
 }

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-__all__ = ["matplotlib", "mujoco", "open3d", "pandas", "pyrender", "pyvista"]
+__all__ = ["matplotlib", "meshio", "mujoco", "open3d", "pandas", "pyrender", "pyvista"]
 
 
 def __getattr__(name):

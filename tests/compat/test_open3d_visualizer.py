@@ -250,6 +250,14 @@ def test_functions_of_a_program_take_keys_and_the_mouse():
     assert visualizer.get_render_option().mesh_show_back_face
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_callback_may_end_it():
+    visualizer = opened(torus())
+    visualizer.register_animation_callback(lambda vis: vis.destroy_window())
+    visualizer.run()
+    assert not visualizer.poll_events()
+
+
 def test_it_may_begin_again():
     visualizer = opened(torus())
     assert visualizer.get_window_name() == "Name"

@@ -6,6 +6,7 @@ of Open3D's VisualizerCallback.cpp.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -124,8 +125,6 @@ def _lens(step: float) -> Callable[[Visualizer, int], None]:
 
 
 def _save_options(visualizer: Visualizer, mods: int) -> None:
-    import time
-
     stamp = time.strftime("%Y-%m-%d-%H-%M-%S")
     visualizer.get_render_option().save_to_json(f"RenderOption_{stamp}.json")
 

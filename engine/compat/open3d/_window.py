@@ -69,6 +69,8 @@ class VisualizerWindow:
             self._window.present(self._visualizer._colors(False))
             self._shown = self._visualizer._ordered
         for event in self._window.events(PATIENCE if wait else 0.0):
+            if self._window.closed:  # by a function of the program
+                return
             self._take(event)
 
     def _take(self, event: events.Event) -> None:

@@ -114,10 +114,11 @@ class Visualizer(Captures):
                 if self._animation(self):
                     self.update_geometry()
                 self.update_renderer()
-        warn(
-            "Visualizer.run shows nothing: there is no screen, or the window is not visible; "
-            "capture_screen_image(file, do_render=True) draws without"
-        )
+        if self._control is not None:
+            warn(
+                "Visualizer.run shows nothing: there is no screen, or the window is not visible; "
+                "capture_screen_image(file, do_render=True) draws without"
+            )
 
     def poll_events(self, *, wait: bool = False) -> bool:
         """Draw if something has changed, and take what the user did; return whether to go on."""

@@ -103,6 +103,7 @@ def test_the_camera_is_where_it_was_put():
         (lambda camera: camera.look_at([1, 1, 1], [1, 1, 1], [0, 1, 0]), "one point"),
         (lambda camera: camera.set_projection(60.0, 1.0, 0.0, 9.0, camera.Vertical), "near_plane"),
         (lambda camera: camera.set_extrinsic(np.eye(3)), r"\(4, 4\)"),
+        (lambda camera: camera.set_projection(np.zeros((3, 3)), 0.1, 9.0, 8, 6), "focal lengths"),
         (lambda camera: camera.set_projection(camera.Ortho, 1, 1, 0, 1, 0, 1), "differ"),
     ],
 )
@@ -255,3 +256,27 @@ def test_sizes_and_axes():
     assert not np.array_equal(picture(renderer), before)
     renderer.scene.show_axes(False)
     assert np.array_equal(picture(renderer), before)
+
+
+HOSTILE = (
+    {"base_roughness": -1.0, "base_metallic": 9.0, "base_color": [9.0, -9.0, np.nan, 9.0]},
+    {"base_roughness": np.nan, "base_reflectance": 1.0, "point_size": 0.0},
+    {"shader": "defaultLitSSR", "absorption_distance": -1.0, "thickness": -1.0},
+    {"point_size": 1e6, "line_width": -1.0},
+)
+
+
+@pytest.mark.parametrize("values", HOSTILE)
+def test_any_numbers_of_a_material_are_drawn(values):
+    cloud = o3d.geometry.PointCloud(VECTORS(np.random.default_rng(0).random((9, 3)) + 1e5))
+    renderer = rendering.OffscreenRenderer(16, 12)
+    record = filament.record(**{"shader": "defaultLit", **values})
+    renderer.scene.add_geometry("ball", filament.ball(), record)
+    renderer.scene.add_geometry("far", cloud, record)
+    assert picture(renderer).shape == (12, 16, 3)
+
+
+@pytest.mark.parametrize("wrong", [None, 5])
+def test_what_is_no_geometry_is_refused(wrong):
+    with pytest.raises(InvalidArgumentError, match="a geometry of Open3D is needed"):
+        rendering.OffscreenRenderer(8, 8).scene.add_geometry("a", wrong, filament.record())

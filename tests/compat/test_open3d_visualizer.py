@@ -266,3 +266,25 @@ def test_it_may_begin_again():
     visualizer.create_window(width=60, height=40, visible=False)
     assert visualizer.add_geometry(torus())
     assert np.array_equal(seen(visualizer), seen(opened(torus())))
+
+
+def test_wrong_indices_are_named():
+    vectors = o3d.utility.Vector3dVector(np.eye(3))
+    mesh = o3d.geometry.TriangleMesh(vectors, o3d.utility.Vector3iVector([[0, 1, 7]]))
+    edges = o3d.geometry.LineSet(vectors, o3d.utility.Vector2iVector([[0, 5]]))
+    for wrong, said in ((mesh, "triangles hold the index 7"), (edges, "lines hold the index 5")):
+        with pytest.raises(InvalidArgumentError, match=said):
+            seen(opened(wrong))
+
+
+def test_any_numbers_of_arrays_are_drawn():
+    rows = o3d.utility.Vector3dVector
+    for values in (np.nan, 255.0, -1.0):
+        mesh = torus()
+        mesh.vertex_colors = rows(np.full((len(mesh.vertices), 3), values))
+        mesh.triangle_normals = rows(np.full((len(mesh.triangles), 3), values))
+        assert seen(opened(mesh)).shape == (40, 60, 3)
+        points = cloud(normals=True)
+        points.normals = rows(np.zeros((len(points.points), 3)))
+        points.colors = rows(np.full((3, 3), values))
+        assert seen(opened(points)).shape == (40, 60, 3)

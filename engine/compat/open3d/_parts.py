@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...io.scenes.open3d_materials import bytes_of_image
-from ...io.scenes.open3d_scenes import octree_cells, voxel_points
+from ...io.scenes.open3d_scenes import octree_cells, require_indices, voxel_points
 from ...io.scenes.voxel_faces import CORNERS, CUBE_EDGES, cube_faces, outer_faces
 from ...model.geometry.mesh import Mesh
 from ...model.materials.linear_colors import linear
@@ -136,6 +136,7 @@ def _faces_part(surface: Surface, *, has_wires: bool) -> Part:
 def _lines_part(points, lines, colors) -> Part:
     """Return the part of segments: ``colors`` is a row for each, or for all."""
     ends = np.asarray(lines).reshape(-1)
+    require_indices(ends, len(points), "lines")
     each = np.broadcast_to(colors, (len(lines), 3))
     mesh = Mesh(
         points[ends],
@@ -149,6 +150,7 @@ def _of_triangles(mesh, option, box) -> Iterator[Part]:
     faces, positions = np.array(mesh.triangles), np.array(mesh.vertices)
     if not len(faces):
         return
+    require_indices(faces, len(positions), "triangles")
     choice = option.mesh_color_option.name
     is_lit = mesh.has_triangle_normals() and mesh.has_vertex_normals()
     is_smooth = option.mesh_shade_option.name == "Color"  # Open3D's name for smooth

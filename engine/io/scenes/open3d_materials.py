@@ -53,7 +53,7 @@ def material_of_record(record: Any) -> Material:
 
     A map that is not drawn is a warning that names it.
     """
-    color = np.clip(np.asarray(record.base_color, np.float64), 0.0, 1.0)
+    color = np.clip(np.nan_to_num(np.asarray(record.base_color, np.float64)), 0.0, 1.0)
     is_clear = record.shader.endswith("Transparency") or record.has_alpha
     alpha = float(color[3]) if is_clear else 1.0
     is_unlit = record.shader in _UNLIT

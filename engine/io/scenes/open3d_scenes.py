@@ -71,7 +71,7 @@ def _scene_of_model(model: Any) -> Scene:
 def mesh_of_triangles(geometry: Any) -> Mesh:
     """Return the mesh of an ``open3d.geometry.TriangleMesh``, with its colours and textures."""
     positions, faces = np.asarray(geometry.vertices), np.asarray(geometry.triangles)
-    _require_indices(faces, len(positions), "triangles")
+    require_indices(faces, len(positions), "triangles")
     given: dict[str, Any] = {}
     if len(normals := np.asarray(geometry.vertex_normals)) == len(positions):
         given["normals"] = normals
@@ -122,7 +122,7 @@ def _mesh_of_points(geometry: Any) -> Mesh:
 
 def _mesh_of_lines(geometry: Any) -> Mesh:
     points, lines = np.asarray(geometry.points), np.asarray(geometry.lines)
-    _require_indices(lines, len(points), "lines")
+    require_indices(lines, len(points), "lines")
     colors = np.asarray(geometry.colors)
     if not len(lines) or len(colors) != len(lines):
         return Mesh(points, lines=lines)
@@ -203,7 +203,8 @@ def _mesh_of_tetrahedra(geometry: Any) -> Any:
     return None if scene is None else next(iter(scene.nodes)).object
 
 
-def _require_indices(rows: NDArray[Any], count: int, what: str) -> None:
+def require_indices(rows: NDArray[Any], count: int, what: str) -> None:
+    """Raise `InvalidArgumentError` unless rows of points are among ``count`` of them."""
     if rows.size and (rows.min() < 0 or rows.max() >= count):
         wrong = int(rows.min()) if rows.min() < 0 else int(rows.max())
         raise InvalidArgumentError(f"{what} hold the index {wrong}, but there are {count} points")

@@ -17,12 +17,9 @@ from ...base.numbers import floats
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.values import Values
 from ...model.scene.scene import Scene
+from ..formats.ply.ply_colors import names_of_colors
 
 _PLACES, _NORMALS = ("x", "y", "z"), ("nx", "ny", "nz")
-_COLORS = (
-    *(("red", "green", "blue", "alpha"), ("red", "green", "blue")),
-    *(("r", "g", "b", "a"), ("r", "g", "b")),
-)
 
 
 def scene_from_pandas(table: Any) -> Scene | None:
@@ -39,10 +36,10 @@ def scene_from_pandas(table: Any) -> Scene | None:
     table = table[np.isfinite(places).all(axis=1)]
     places = _numbers(table, _PLACES)
     given: dict[str, Any] = {}
-    for names in _COLORS:
-        if set(names) <= set(table.columns) and len(table):
-            given["colors"] = _colors(table, names)
-            break
+    named = set(map(str, table.columns))
+    names = [name for name in names_of_colors(named - {"f_dc_0"}) if name in named][:4]
+    if len(names) >= 3 and len(table):
+        given["colors"] = _colors(table, names)
     if set(_NORMALS) <= set(table.columns):
         given["normals"] = _numbers(table, _NORMALS)
     mesh = Mesh(places, points=np.arange(len(places)), **given)

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....base import linalg
-from ....errors import warn
+from ....errors import InvalidArgumentError, warn
 from ....io.scenes.open3d_materials import material_of_record
-from ....io.scenes.open3d_scenes import octree_cells, scene_from_open3d
+from ....io.scenes.open3d_scenes import octree_cells, require_indices, scene_from_open3d
 from ....io.scenes.voxel_faces import cube_faces
 from ....model.geometry.mesh import Mesh
 from ....model.materials.linear_colors import linear
@@ -97,6 +97,8 @@ def thing_of(geometry: Any, record: Any, planes: tuple[float, float]) -> Thing |
     """Return a geometry as a thing; None for what Filament does not draw either."""
     if hasattr(geometry, "to_legacy"):
         geometry = geometry.to_legacy()
+    if not hasattr(geometry, "is_empty"):
+        raise InvalidArgumentError(f"a geometry of Open3D is needed, not {type(geometry).__name__}")
     if geometry.is_empty():
         return None
     arrays = _arrays(geometry)
@@ -130,6 +132,7 @@ def _arrays(geometry: Any) -> Arrays | None:
         return None
     if "LineSet" in kinds:
         ends = np.asarray(geometry.lines).reshape(-1)
+        require_indices(ends, len(geometry.points), "lines")
         colors = np.ones((len(ends), 3))
         if geometry.has_colors():
             colors = np.repeat(np.asarray(geometry.colors), 2, axis=0)
@@ -155,6 +158,7 @@ def _displayed(mesh: Mesh) -> NDArray[np.float64]:
 
 def _of_triangles(geometry: Any) -> Arrays:
     positions, faces = np.array(geometry.vertices), np.array(geometry.triangles)
+    require_indices(faces, len(positions), "triangles")
     colors = np.array(geometry.vertex_colors) if geometry.has_vertex_colors() else None
     normals = np.array(geometry.vertex_normals) if geometry.has_vertex_normals() else None
     if not geometry.has_triangle_uvs():

@@ -86,6 +86,8 @@ class Camera:
         matrix = np.asarray(intrinsics, np.float64)
         width, height = float(image_width), float(image_height)
         near = _plane(near_plane, "near_plane")
+        if matrix.shape != (3, 3) or not (matrix[0, 0] > 0 and matrix[1, 1] > 0):
+            raise InvalidArgumentError("intrinsics must be (3, 3), with focal lengths above 0")
         self._matrix = np.zeros((4, 4))
         self._matrix[0, 0] = 2.0 * matrix[0, 0] / width
         self._matrix[1, 1] = 2.0 * matrix[1, 1] / height

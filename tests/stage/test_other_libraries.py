@@ -317,3 +317,6 @@ class TestOpen3d:
 
 def test_what_is_of_no_library():
     assert library_of(e3d.box()) is None and scene_of_library(3) is None
+    within: list = []
+    within.append(within)
+    assert scene_of_library(within) is None

@@ -30,22 +30,24 @@ def scene_of_library(thing: Any) -> Scene | None:
 
     None for what is of none of these libraries, or shows nothing.
     """
-    if isinstance(thing, list | tuple):
-        return _scene_of_several(thing)
+    return _scene_of_several(thing) if isinstance(thing, list | tuple) else _scene_of_one(thing)
+
+
+def _scene_of_one(thing: Any) -> Scene | None:
     library = library_of(thing)
     return None if library is None else _SCENES[library](thing)
 
 
 def _scene_of_several(things: Sequence[Any]) -> Scene | None:
     """Return one scene of several things; None unless each can be shown."""
-    scenes = [scene_of_library(thing) for thing in things]
-    if not scenes or any(scene is None for scene in scenes):
-        return None
     whole = Scene()
-    for scene in scenes:
-        for node in () if scene is None else scene.nodes:
+    for thing in things:
+        scene = _scene_of_one(thing)
+        if scene is None:
+            return None
+        for node in scene.nodes:
             whole.add(node.object, name=node.name, pose=node.pose)
-    return whole
+    return whole if things else None
 
 
 def library_of(thing: Any) -> str | None:

@@ -2,7 +2,10 @@
 
 from importlib import import_module
 
-__all__ = ["matplotlib", "mujoco", "pybullet", "pyrender", "pyvista"]
+__all__ = [
+    *("matplotlib", "meshio", "mujoco", "open3d", "pandas", "pybullet", "pyrender", "pyvista"),
+    "trimesh",
+]
 
 
 def __getattr__(name):

@@ -45,8 +45,8 @@ def render(
     Parameters
     ----------
     scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-        An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio,
-            CadQuery and build123d.
+        An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio, Open3D,
+        CadQuery and build123d.
         A file gives the picture of ``engine3d render``, with the same bytes. A node is drawn with
         its subtree at its world pose, lit by the lights of that subtree.
     camera : None, Node or (Camera, pose)

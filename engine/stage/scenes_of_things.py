@@ -27,8 +27,9 @@ def scene_of(thing: Any) -> Scene | None:
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) array, or what trimesh, PyVista or meshio hold
-        A scene is returned unchanged. An array holds points. For a node, the new scene holds its
+    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) array, or another library's object
+        Libraries are trimesh, PyVista, meshio and Open3D; a list of their objects is taken, too. A
+        scene is returned unchanged. An array holds points. For a node, the new scene holds its
         visible subtree at its world poses, in its current deformation.
     """
     if isinstance(thing, Scene):

@@ -1,4 +1,4 @@
-"""Datasets of PyVista and meshes of meshio are drawn as they are."""
+"""Datasets of PyVista, meshes of meshio and geometries of Open3D are drawn as they are."""
 
 import numpy as np
 import pytest
@@ -6,6 +6,7 @@ import pytest
 import engine3d as e3d
 from engine3d.errors import Engine3DWarning, InvalidArgumentError
 from engine3d.io.scenes.other_libraries import library_of, scene_of_library
+from engine3d.model.materials.colors import srgb_bytes
 
 POINTS = np.array(
     [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], np.float64
@@ -171,5 +172,151 @@ class TestPyvista:
             e3d.render(self.pyvista.Camera(), size=(16, 12))
 
 
+class TestOpen3d:
+    @pytest.fixture(autouse=True)
+    def open3d(self):
+        self.open3d = pytest.importorskip("open3d", exc_type=ImportError)
+        self.make = self.open3d.geometry
+        self.vectors = self.open3d.utility.Vector3dVector
+
+    def ball(self):
+        mesh = self.make.TriangleMesh.create_sphere()
+        mesh.vertex_colors = self.vectors(np.linspace(0, 1, 3 * len(mesh.vertices)).reshape(-1, 3))
+        return mesh
+
+    def dice(self):
+        mesh = self.make.TriangleMesh.create_box(create_uv_map=True)
+        images = [np.full((2, 2, 3), (255, 0, 0)), np.array([[[0, 255, 0]] * 2, [[0, 0, 255]] * 2])]
+        mesh.textures = [self.make.Image(one.astype(np.uint8)) for one in images]
+        mesh.triangle_material_ids = self.open3d.utility.IntVector([0] * 8 + [1] * 4)
+        return mesh
+
+    def cells(self, *places):
+        cloud = self.make.PointCloud(self.vectors(np.array(places, float) + 0.5))
+        cloud.paint_uniform_color([0.2, 0.4, 0.6])
+        return self.make.VoxelGrid.create_from_point_cloud_within_bounds(
+            cloud, 1.0, [0, 0, 0], [5, 5, 5]
+        )
+
+    def test_meshes_keep_colours_and_normals(self):
+        given = self.ball()
+        mesh = only_mesh(given)
+        assert not mesh.has_normals and mesh.crease_angle < 1
+        assert e3d.render(mesh, size=(8, 6)).color is not None
+        expected = np.round(np.asarray(given.vertex_colors) * 255)
+        assert np.array_equal(srgb_bytes(mesh.colors)[:, :3], expected)
+        given.compute_vertex_normals()
+        assert np.allclose(only_mesh(given).normals, given.vertex_normals, atol=1e-6)
+        assert area(mesh) == pytest.approx(given.get_surface_area(), rel=1e-5)
+
+    def test_textures_lie_as_in_open3d(self):
+        """The first row of an image of a mesh is at v = 0."""
+        mesh = only_mesh(self.dice())
+        assert mesh.material_ids.tolist() == [0] * 8 + [1] * 4 and mesh.colors is None
+        red, both = (material.texture.pixels for material in mesh.materials)
+        assert red[0, 0, :3].tolist() == [255, 0, 0]
+        assert both[-1, 0, :3].tolist() == [0, 255, 0] and both[0, 0, :3].tolist() == [0, 0, 255]
+        assert area(mesh) == pytest.approx(6) and len(mesh.uvs) == 36
+
+    def test_points_and_lines(self):
+        cloud = self.make.PointCloud(self.vectors(POINTS))
+        assert only_mesh(cloud).points.tolist() == list(range(8))
+        lines = self.make.LineSet(
+            self.vectors(POINTS), self.open3d.utility.Vector2iVector([[0, 6]])
+        )
+        assert only_mesh(lines).lines.tolist() == [[0, 6]]
+        lines.colors = self.vectors([[1, 0, 0]])
+        mesh = only_mesh(lines)
+        assert np.allclose(mesh.positions[mesh.lines[0]], POINTS[[0, 6]])
+        assert srgb_bytes(mesh.colors)[:, :3].tolist() == [[255, 0, 0]] * 2
+
+    def test_boxes_are_those_of_open3d(self):
+        turn = self.make.get_rotation_matrix_from_xyz((0.3, 0.4, 0.5))
+        straight = self.make.AxisAlignedBoundingBox([0, 0, 0], [1, 2, 3])
+        turned = self.make.OrientedBoundingBox([1, 1, 1], turn, [1, 2, 1])
+        lines = self.make.LineSet
+        for box, as_lines in (
+            (straight, lines.create_from_axis_aligned_bounding_box(straight)),
+            (turned, lines.create_from_oriented_bounding_box(turned)),
+        ):
+            mesh = only_mesh(box)
+            assert np.allclose(mesh.positions, as_lines.points, atol=1e-6)
+            assert np.array_equal(mesh.lines, as_lines.lines)
+
+    def test_only_bare_faces_of_voxels_are_drawn(self):
+        grid = self.cells((0, 0, 0), (1, 0, 0), (3, 3, 3), (3, 4, 3))
+        mesh = only_mesh(grid)
+        assert area(mesh) == pytest.approx(20) and volume(mesh) == pytest.approx(4)
+        assert len(mesh.faces) == 40 and len(mesh.edges()) > 0
+        assert (srgb_bytes(mesh.colors)[:, :3] == [51, 102, 153]).all()
+
+    def test_any_voxels_enclose_what_they_are(self):
+        for seed in range(5):
+            places = np.unique(np.random.default_rng(seed).integers(0, 5, (30, 3)), axis=0)
+            mesh = only_mesh(self.cells(*places))
+            assert volume(mesh) == pytest.approx(len(places))
+
+    def test_octrees_and_tetrahedra(self):
+        cloud = self.make.PointCloud(self.vectors(POINTS))
+        cloud.paint_uniform_color([1, 0, 0])
+        tree = self.make.Octree(2)
+        tree.convert_from_point_cloud(cloud, 0.01)
+        mesh = only_mesh(tree)
+        assert len(mesh.faces) == 12 * 8 and len(mesh.lines) % 12 == 0
+        assert volume(mesh) == pytest.approx(8 * (tree.size / 4) ** 3)
+        tetra = self.make.TetraMesh(
+            self.vectors(POINTS[[0, 1, 3, 4]]), self.open3d.utility.Vector4iVector([[0, 1, 2, 3]])
+        )
+        assert volume(only_mesh(tetra)) == pytest.approx(1 / 6)
+
+    def test_tensors_and_lists(self):
+        tensor = self.open3d.t.geometry.TriangleMesh.from_legacy(self.ball())
+        assert area(only_mesh(tensor)) == pytest.approx(area(only_mesh(self.ball())))
+        cloud = self.make.PointCloud(self.vectors(POINTS))
+        both = scene_of_library([self.ball(), cloud])
+        assert [node.name for node in both.nodes] == ["TriangleMesh", "PointCloud"]
+        assert scene_of_library([]) is None and scene_of_library([cloud, 3]) is None
+        shown = e3d.render([self.ball(), cloud.translate([3, 0, 0])], size=(32, 24)).color
+        assert not np.array_equal(shown, e3d.render(self.ball(), size=(32, 24)).color)
+
+    def test_models_keep_their_materials(self):
+        rendering = self.open3d.visualization.rendering
+        model, record = rendering.TriangleMeshModel(), rendering.MaterialRecord()
+        record.shader, record.base_color = "defaultLit", [1.0, 0.0, 0.0, 1.0]
+        record.base_metallic, record.base_roughness, record.base_reflectance = 1.0, 0.25, 0.9
+        maps = {"ao_img": (4, 4), "roughness_img": (2, 2), "metallic_img": (2, 4)}
+        for name, size in maps.items():
+            setattr(record, name, self.make.Image(np.full((*size, 1), 100, np.uint8)))
+        model.meshes = [rendering.TriangleMeshModel.MeshInfo(self.dice(), "die", 0)]
+        model.materials = [record]
+        (node,) = scene_of_library(model).nodes
+        (material,) = node.object.materials
+        assert node.name == "die" and (material.metallic, material.roughness) == (1.0, 0.25)
+        assert material.metallic_roughness_texture.pixels.shape[:2] == (2, 4)
+        assert (material.metallic_roughness_texture.pixels[..., :3] == 100).all()
+        reflected = ((material.ior - 1) / (material.ior + 1)) ** 2 * material.specular_intensity
+        assert reflected == pytest.approx(0.16 * 0.9**2, rel=1e-5)
+
+    def test_wrong_indices_are_refused(self):
+        mesh = self.make.TriangleMesh(
+            self.vectors(POINTS), self.open3d.utility.Vector3iVector([[0, 1, 8]])
+        )
+        with pytest.raises(InvalidArgumentError, match="triangles hold the index 8"):
+            e3d.render(mesh, size=(8, 6))
+        die = self.dice()
+        die.triangle_material_ids = self.open3d.utility.IntVector([2] * 12)
+        with pytest.raises(InvalidArgumentError, match=r"triangle_material_ids must be in 0\.\.1"):
+            e3d.render(die, size=(8, 6))
+
+    def test_what_shows_nothing_is_refused(self):
+        with pytest.raises(InvalidArgumentError):
+            e3d.render(self.make.Image(np.zeros((2, 2, 3), np.uint8)), size=(8, 6))
+        for empty in (self.make.TriangleMesh(), self.make.VoxelGrid(), self.make.PointCloud()):
+            assert len(only_mesh(empty).positions) == 0
+
+
 def test_what_is_of_no_library():
     assert library_of(e3d.box()) is None and scene_of_library(3) is None
+    within: list = []
+    within.append(within)
+    assert scene_of_library(within) is None

@@ -3,13 +3,15 @@
 Where a breach is to stay, a comment says why.
 """
 
-# Keywords are what users and agents write. Those of compat.pybullet and compat.pyrender are these
-# packages'.
+# Keywords are what users and agents write. Those of compat are of the libraries that it stands for.
 LONG_SIGNATURES = (
     "apps.agents.tools.render",
     "apps.batch.running.run",
     "apps.drawings.drawing_sheet.drawing_sheet",
     "apps.sheet.contact_sheet.contact_sheet",
+    "compat.open3d.drawing_functions.draw",
+    "compat.open3d.drawing_functions.draw_geometries",
+    "compat.open3d.rendering.low_level_scene.add_spot_light",
     "compat.pybullet.camera_image.getCameraImage",
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",

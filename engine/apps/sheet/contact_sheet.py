@@ -268,8 +268,8 @@ def contact_sheet(
     Parameters
     ----------
     models : what `render` takes, or several of these
-        A path or file object, a scene, a node, a mesh, instances, points, or what trimesh, PyVista
-        or meshio hold.
+        A path or file object, a scene, a node, a mesh, instances, points, or what trimesh, PyVista,
+        meshio or Open3D hold.
         Each gets a part of the sheet, one below another. Scenes are not changed.
     views : str or iterable of str
         Comma-separated names: ``front``, ``right``, ``back``, ``left``, ``top``, ``bottom``,

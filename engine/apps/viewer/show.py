@@ -65,7 +65,7 @@ def show(
     Parameters
     ----------
     thing : path, Scene, Node, Mesh, InstancedMesh, Frame, Canvas, array, or another library's
-        Other libraries are trimesh, PyVista and meshio.
+        Other libraries are trimesh, PyVista, meshio and Open3D.
         A file of a model is opened as by ``engine3d run``. A node is shown with its subtree and the
         lights in it. The first view of a scene is its camera's, if it has one. Arrays are as for
         `Window.present`.

@@ -1,17 +1,19 @@
-"""Scenes of what other libraries hold: trimesh, PyVista, meshio, CadQuery and build123d.
+"""Scenes of what other libraries hold: trimesh, PyVista, meshio, Open3D, CAD and pandas.
 
-In: any object. Out: a `Scene` if a library of this list made it. None of them is imported here: who
-has such an object has imported its library.
+In: any object, or a list of them. Out: a `Scene` if a library of this list made it. None of them is
+imported here: who has such an object has imported its library.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...model.scene.scene import Scene
 from .cad_scenes import scene_from_cad
 from .meshio_scenes import scene_from_meshio
+from .open3d_scenes import scene_from_open3d
+from .pandas_scenes import scene_from_pandas
 from .pyvista_scenes import scene_from_pyvista
 from .trimesh_scenes import scene_from_trimesh
 
@@ -20,15 +22,35 @@ CAD_LIBRARIES = ("OCP", "build123d", "cadquery")
 _SCENES: dict[str, Callable[[Any], Scene | None]] = {
     **dict.fromkeys(CAD_LIBRARIES, scene_from_cad),
     "meshio": scene_from_meshio,
+    "open3d": scene_from_open3d,
+    "pandas": scene_from_pandas,
     "pyvista": scene_from_pyvista,
     "trimesh": scene_from_trimesh,
 }
 
 
 def scene_of_library(thing: Any) -> Scene | None:
-    """Return a scene of an object of another library; None if it is of none, or shows nothing."""
+    """Return a scene of an object of another library, or of a list of such objects.
+
+    None for what is of none of these libraries, or shows nothing.
+    """
     library = library_of(thing)
-    return None if library is None else _SCENES[library](thing)
+    if library is not None:
+        return _SCENES[library](thing)
+    return _scene_of_several(thing) if isinstance(thing, list | tuple) else None
+
+
+def _scene_of_several(things: Sequence[Any]) -> Scene | None:
+    """Return one scene of several things; None unless each can be shown."""
+    whole = Scene()
+    for thing in things:
+        library = library_of(thing)
+        scene = None if library is None else _SCENES[library](thing)
+        if scene is None:
+            return None
+        for node in scene.nodes:
+            whole.add(node.object, name=node.name, pose=node.world_pose)
+    return whole if things else None
 
 
 def library_of(thing: Any) -> str | None:

@@ -1,6 +1,6 @@
 """Clear surfaces, mixed as VTK mixes them: without an order, weighted by nearness.
 
-In: the pixels of all that hides, and the parts. Out: pixels. VTK adds up each pixel's clear
+In: the parts, and those that hide them. Out: colours and alphas. VTK adds up each pixel's clear
 colours, times alpha and a weight that falls with depth (vtkOrderIndependentTranslucentPass.cxx).
 The core blends in order; with alphas close to 0 the order does not matter, and blending is adding.
 """
@@ -26,27 +26,30 @@ from ._view import View
 _FAINT = 2.0**-10
 _BLINN = 4.0  # times the power of Phong: highlights about as wide
 
-def over(
-    rgba: NDArray[np.float32],
+def mixture(
     solid: list[Part],
     clear: list[Part],
     lamps: list[Lamp],
     view: View,
     peels: bool,
-) -> NDArray[np.float32]:
-    """Return pixels with clear parts over them, (H, W, 4) float32, colours times alpha."""
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return what clear parts show before solid ones.
+
+    Returns
+    -------
+    color : (H, W, 3) float32
+        0 to 1, times the alpha.
+    cover : (H, W, 1) float32
+        Alpha.
+    """
     clear = [each for part in clear for each in _with_edges(part, view)]
     draw = _Passes(solid, clear, lamps, view)
     cover = draw.radiance(is_white=True)[..., :1]
     if peels:
-        color = draw.radiance()
-    else:
-        weight = draw.radiance(is_white=True, is_weighted=True)[..., :1]
-        color = draw.radiance(is_weighted=True) / np.maximum(weight, 1e-30) * cover
-    out = rgba * (1.0 - cover)
-    out[..., :3] += 255.0 * np.clip(color, 0.0, cover)
-    out[..., 3:] += 255.0 * cover
-    return out
+        return np.minimum(draw.radiance(), cover), cover
+    weight = draw.radiance(is_white=True, is_weighted=True)[..., :1]
+    color = draw.radiance(is_weighted=True) / np.maximum(weight, np.float32(1e-30))
+    return np.clip(color, 0.0, 1.0) * cover, cover
 
 
 def _with_edges(part: Part, view: View) -> list[Part]:

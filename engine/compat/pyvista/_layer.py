@@ -1,14 +1,12 @@
-"""What a renderer of VTK shows of its parts: pixels, with alpha, and depths.
+"""What a renderer of VTK shows of its parts: colours and depths.
 
-In: parts, lights and a view. Out: a `Layer`. Each sample of a pixel is a picture of its own, of a
+In: parts, lights and a view. Out: samples. Each sample of a pixel is a picture of its own, of a
 camera that is moved by a part of a pixel: what the core does not know of VTK's look is added there.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,63 +14,56 @@ from ...model.scene.cameras import Camera
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
-from ._clear import over
+from ._clear import mixture
 from ._edges import edge_shares
 from ._finish import shade
 from ._lights import Lamp, add_lights
 from ._parts import Part
+from ._samples import Samples
 from ._view import View, product
 
-#: Where the samples of a pixel are, y down: OpenGL's drivers have Direct3D's pattern, upside down.
-_PATTERNS = {
-    1: ((0.5, 0.5),),
-    4: ((0.375, 0.875), (0.875, 0.625), (0.125, 0.375), (0.625, 0.125)),
-}
 _OF_LIGHT = {"object_id", "albedo", "world_normal", "world_position"}
 _OF_EDGES = {"object_id", "face_id"}
 
 
-class Layer(NamedTuple):
-    """Pixels of a view.
-
-    Attributes
-    ----------
-    rgba : (H, W, 4) float32
-        0 to 255, colours times alpha.
-    depth : (H, W) float32 or None
-        Metric distance along the view axis; 0 where nothing is.
-    """
-
-    rgba: NDArray[np.float32]
-    depth: NDArray[np.float32] | None
-
-
 def draw_layer(
-    parts: list[Part],
-    lamps: list[Lamp],
-    view: View,
-    *,
-    samples: int,
-    peels: bool,
-    wants_depth: bool,
-) -> Layer:
-    """Draw parts.
+    samples: Samples, parts: list[Part], lamps: list[Lamp], view: View, peels: bool
+) -> None:
+    """Draw parts over samples.
 
     Parameters
     ----------
-    samples : {1, 4}
-        Of a pixel. As in VTK, clear faces have one.
+    samples : Samples
+        Of the view's rectangle.
     peels : bool
-        Whether clear faces lie over each other from far to near, instead of being mixed.
-    wants_depth : bool
+        Whether clear faces lie over each other from far to near, instead of being mixed. As in VTK,
+        they have one sample a pixel.
     """
     shown = [part for part in parts if len(part.faces)]
     solid = [part for part in shown if not part.is_clear]
     clear = [part for part in shown if part.is_clear]
-    rgba = _Solid(solid, lamps, view).pixels(samples)
+    if solid:
+        _Solid(solid, lamps, view).draw(samples)
     if clear:
-        rgba = over(rgba, solid, clear, lamps, view, peels)
-    return Layer(rgba, _depth(shown, view) if wants_depth else None)
+        samples.blend(*mixture(solid, clear, lamps, view, peels))
+
+
+def depth_of(parts: list[Part], view: View) -> NDArray[np.float32]:
+    """Return distances along the view axis in the middles of pixels, (H, W); 0 where nothing is."""
+    scene = Scene(background=None)
+    for part in parts:
+        if len(part.faces):
+            part.added(scene, part.material(opacity=1.0))
+    renderer = Renderer((view.width, view.height), color_space="linear")
+    camera = Camera(view.projection), np.eye(4)
+    return renderer.render(
+        scene,
+        camera,
+        mode="unlit",
+        outputs=("depth",),
+        cull="none",
+        transparent_outputs=True,
+    ).depth
 
 
 @dataclass
@@ -108,18 +99,14 @@ class _Solid:
         if not is_lit or look.edge_width:
             self._unfinished[node.id] = _Unfinished(part, is_lit)
 
-    def pixels(self, samples: int) -> NDArray[np.float32]:
-        """Return the pixels, (H, W, 4) float32, colours times alpha."""
-        size = self._view.width, self._view.height
-        renderer = Renderer(size, color_space="linear")
-        pattern = _PATTERNS[samples]
-        total = np.zeros((*size[::-1], 4), np.uint16)
-        for x, y in pattern:
+    def draw(self, samples: Samples) -> None:
+        """Draw the parts over samples."""
+        renderer = Renderer((self._view.width, self._view.height), color_space="linear")
+        for number, (x, y) in enumerate(samples.pattern):
             frame = self._render(renderer, _moved(self._view, 0.5 - x, 0.5 - y))
             if self._unfinished:
                 self._finish(frame)
-            total += frame.color
-        return total.astype(np.float32) / np.float32(len(pattern))
+            samples.put(number, frame.color)
 
     def _render(self, renderer: Renderer, projection: NDArray[np.float64]) -> Frame:
         return renderer.render(
@@ -168,20 +155,3 @@ def _moved(view: View, right: float, down: float) -> NDArray[np.float64]:
     shift = np.eye(4)
     shift[0, 3], shift[1, 3] = 2.0 * right / view.width, -2.0 * down / view.height
     return product(shift, view.projection)
-
-
-def _depth(parts: list[Part], view: View) -> NDArray[np.float32]:
-    """Return the depths in the middles of pixels."""
-    scene = Scene(background=None)
-    for part in parts:
-        part.added(scene, part.material(opacity=1.0))
-    renderer = Renderer((view.width, view.height), color_space="linear")
-    camera = Camera(view.projection), np.eye(4)
-    return renderer.render(
-        scene,
-        camera,
-        mode="unlit",
-        outputs=("depth",),
-        cull="none",
-        transparent_outputs=True,
-    ).depth

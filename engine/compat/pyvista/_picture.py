@@ -12,13 +12,14 @@ import numpy as np
 from ._actors import parts_of
 from ._layer import draw_layer
 from ._lights import lamps_of
+from ._samples import Samples
 from ._view import view_of
 
 
 def picture(plotter: Any):
     plotter._on_first_render_request()
     width, height = plotter.window_size
-    out = np.zeros((height, width, 4), np.float32)
+    out = Samples((width, height), 4)
     for renderer in plotter.renderers:
         view = view_of(renderer, (width, height))
         parts = []
@@ -28,10 +29,7 @@ def picture(plotter: Any):
             q = it.GetNextProp()
             if q.GetVisibility() and q.IsA("vtkActor") and not q.IsA("vtkCubeAxesActor"):
                 parts += parts_of(q, view)
-        layer = draw_layer(parts, lamps_of(renderer, view), view, samples=4, peels=bool(renderer.GetUseDepthPeeling()), wants_depth=False)
-        region = out[view.top : view.top + view.height, view.left : view.left + view.width]
-        region[..., :3] = 255 * np.array(renderer.GetBackground())
-        region[..., 3] = 255
-        region *= 1 - layer.rgba[..., 3:] / 255
-        region += layer.rgba
-    return np.clip(out[..., :3] + 0.5, 0, 255).astype(np.uint8)
+        region = out.part(view.left, view.top, view.width, view.height)
+        region.fill(np.array(renderer.GetBackground()), renderer.GetBackgroundAlpha())
+        draw_layer(region, parts, lamps_of(renderer, view), view, bool(renderer.GetUseDepthPeeling()))
+    return out.pixels()[..., :3]

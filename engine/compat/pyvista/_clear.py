@@ -1,8 +1,8 @@
-"""Clear surfaces, mixed as VTK mixes them: without an order, weighted by nearness.
+"""Clear surfaces, mixed as VTK mixes them: without an order.
 
-In: the parts, and those that hide them. Out: colours and alphas. VTK adds up each pixel's clear
-colours, times alpha and a weight that falls with depth (vtkOrderIndependentTranslucentPass.cxx).
-The core blends in order; with alphas close to 0 the order does not matter, and blending is adding.
+In: the parts, and those that hide them. Out: colours and alphas. VTK shows the mean of each
+pixel's clear colours, weighted by alpha (vtkOrderIndependentTranslucentPass.cxx). The core blends in
+order; with alphas close to 0 the order does not matter, and blending is adding.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ def mixture(
     cover = draw.radiance(is_white=True)[..., :1]
     if peels:
         return np.minimum(draw.radiance(), cover), cover
-    weight = draw.radiance(is_white=True, is_weighted=True)[..., :1]
-    color = draw.radiance(is_weighted=True) / np.maximum(weight, np.float32(1e-30))
+    weight = draw.radiance(is_white=True, is_faint=True)[..., :1]
+    color = draw.radiance(is_faint=True) / np.maximum(weight, np.float32(1e-30))
     return np.clip(color, 0.0, 1.0) * cover, cover
 
 
@@ -85,18 +85,16 @@ class _Passes:
         self._solid, self._clear, self._lamps = solid, clear, lamps
         self._renderer = Renderer((view.width, view.height), color_space="linear")
         self._camera = Camera(view.projection), np.eye(4)
-        self._weights = [_weights(part, view) for part in clear]
-        self._most = max((float(one.max()) for one in self._weights if len(one)), default=1.0)
 
-    def radiance(self, is_white: bool = False, is_weighted: bool = False) -> NDArray[np.float32]:
+    def radiance(self, is_white: bool = False, is_faint: bool = False) -> NDArray[np.float32]:
         """Return the sum of the clear parts' colours.
 
         Parameters
         ----------
         is_white : bool
             Draw them white instead.
-        is_weighted : bool
-            With faint alphas, times their weights; the sum is divided by nothing.
+        is_faint : bool
+            With alphas close to 0.
         """
         scene = Scene(background=(0, 0, 0), ambient=(0, 0, 0))
         add_lights(scene, self._lamps)
@@ -105,8 +103,8 @@ class _Passes:
             material = black.material(0.0)
             material.unlit = True
             black.added(scene, material)
-        for part, weights in zip(self._clear, self._weights, strict=True):
-            self._add(scene, part, weights, is_white, is_weighted)
+        for part in self._clear:
+            self._add(scene, part, is_white, is_faint)
         frame = self._renderer.render(scene, self._camera, outputs=("radiance",), cull="none")
         return frame.radiance
 
@@ -114,13 +112,12 @@ class _Passes:
         self,
         scene: Scene,
         part: Part,
-        weights: NDArray[np.float64],
         is_white: bool,
-        is_weighted: bool,
+        is_faint: bool,
     ) -> None:
         look = part.look
         factor = look.ambient + look.diffuse if look.is_unlit else look.diffuse
-        opacity = look.opacity * (_FAINT if is_weighted else 1.0)
+        opacity = look.opacity * (_FAINT if is_faint else 1.0)
         material = part.material(1.0 if is_white else factor, opacity)
         if is_white:
             material.unlit = True
@@ -132,20 +129,7 @@ class _Passes:
             material.shininess = _BLINN * look.power
         if not is_white and look.ambient and not look.is_unlit:
             material.emissive = linear(np.clip(look.ambient * look.ambient_color, 0.0, 1.0))
-        if is_weighted and part.spots is None:
-            part = replace(part, paint=_weighted(part.paint, weights / self._most))
         part.added(scene, material)
-
-
-def _weights(part: Part, view: View) -> NDArray[np.float64]:
-    """Return the weights of a part's vertices by their depth."""
-    places = part.places if part.spots is None else part.spots[:, :3]
-    z = places[:, 2]
-    m = view.projection
-    w = m[3, 2] * z + m[3, 3]
-    depth = 0.5 + 0.5 * (m[2, 2] * z + m[2, 3]) / np.where(np.abs(w) < 1e-30, 1e-30, w)
-    near = np.maximum(1.1 - np.clip(depth, 0.0, 1.0), 0.0)
-    return near * near
 
 
 def _white(paint: Paint) -> Paint:
@@ -159,10 +143,3 @@ def _white(paint: Paint) -> Paint:
         pixels[..., :3] = 255
         image = Texture(pixels, color_space="linear", filter=image.filter, wrap=image.wrap)
     return replace(paint, rgba=rgba, image=image)
-
-
-def _weighted(paint: Paint, weights: NDArray[np.float64]) -> Paint:
-    """Return colours whose alphas are multiplied; floats, which the mesh keeps."""
-    rgba = np.ones((len(weights), 4)) if paint.rgba is None else paint.rgba / 255.0
-    rgba[:, 3] *= weights
-    return replace(paint, rgba=linear(rgba))

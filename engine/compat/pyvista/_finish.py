@@ -67,7 +67,6 @@ def _physical(
     lamps: list[Lamp],
 ) -> Floats:
     """Return the light that a physical material reflects, as the screen shows it."""
-    albedo = albedo**_GAMMA
     f0 = look.base_reflectance * (1.0 - look.metallic) + albedo * look.metallic
     f90 = np.clip(f0.sum(1, keepdims=True) * 16.5, 0.0, 1.0)
     f90 = f90 * (1.0 - look.metallic) + look.metallic

@@ -12,6 +12,8 @@ import numpy as np
 from ._actors import parts_of
 from ._layer import draw_layer
 from ._lights import lamps_of
+from ._overlay import Overlay
+from ._props import _FLAT, props_of
 from ._samples import Samples
 from ._view import view_of
 
@@ -23,13 +25,14 @@ def picture(plotter: Any):
     for renderer in plotter.renderers:
         view = view_of(renderer, (width, height))
         parts = []
-        it = renderer.GetViewProps()
-        it.InitTraversal()
-        for _ in range(it.GetNumberOfItems()):
-            q = it.GetNextProp()
-            if q.GetVisibility() and q.IsA("vtkActor") and not q.IsA("vtkCubeAxesActor"):
+        for q in props_of(renderer):
+            if q.IsA("vtkActor") and not q.IsA("vtkCubeAxesActor"):
                 parts += parts_of(q, view)
         region = out.part(view.left, view.top, view.width, view.height)
         region.fill(np.array(renderer.GetBackground()), renderer.GetBackgroundAlpha())
         draw_layer(region, parts, lamps_of(renderer, view), view, bool(renderer.GetUseDepthPeeling()))
+        ov = Overlay(renderer, view, region)
+        for q in props_of(renderer):
+            for n, d in _FLAT.items():
+                if q.IsA(n): d(ov, q); break
     return out.pixels()[..., :3]

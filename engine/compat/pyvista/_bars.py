@@ -77,7 +77,7 @@ class _Bar:
         start = swatch * bool(actor.GetDrawBelowRangeSwatch())
         end = _PAD + _PAD * bool(actor.GetDrawBelowRangeSwatch())
         if actor.GetDrawAboveRangeSwatch():
-            end += swatch + _LOW * self._is_vertical
+            end += swatch + 2 * self._is_vertical
         nan = swatch * bool(actor.GetDrawNanAnnotation())
         if not self._is_vertical:
             return _Box(left + start, width - start - end - nan, bottom + 1, self._thickness)

@@ -37,7 +37,7 @@ def paint_of(mapper: Any, data: Any) -> tuple[Paint, bool]:
         return _missing(mapper), False
     mapped = mapper.MapScalars(data, 1.0)
     if mapped is not None:
-        rgba = _four(vtk_to_numpy(mapped))
+        rgba = four_channels(vtk_to_numpy(mapped))
         if int(kind) == _OF_FIELDS:
             row = max(mapper.GetFieldDataTupleId(), 0)
             rgba = np.repeat(rgba[row : row + 1], data.GetNumberOfCells(), 0)
@@ -46,7 +46,7 @@ def paint_of(mapper: Any, data: Any) -> tuple[Paint, bool]:
     if image is None or uvs is None:
         return Paint(), False
     width, height, _ = image.GetDimensions()
-    texels = _four(vtk_to_numpy(image.GetPointData().GetScalars())).reshape(height, width, 4)
+    texels = four_channels(vtk_to_numpy(image.GetPointData().GetScalars())).reshape(height, width, 4)
     texture = Texture(texels[::-1], color_space="linear", filter="nearest", wrap="clamp")
     coordinates = np.asarray(vtk_to_numpy(uvs), np.float32)
     return Paint(uvs=coordinates, image=texture, is_clear=_is_clear(texels)), False
@@ -71,7 +71,7 @@ def texture_of(texture: Any) -> Texture | None:
             values = vtk_to_numpy(texture.MapScalarsToColors(scalars))
         else:
             values = np.clip(values * 255.0 + 0.5, 0, 255).astype(np.uint8)
-    texels = _four(values).reshape(height, width, 4)
+    texels = four_channels(values).reshape(height, width, 4)
     filtering = "nearest"
     if texture.GetInterpolate():
         filtering = "trilinear" if texture.GetMipmap() else "bilinear"
@@ -79,7 +79,7 @@ def texture_of(texture: Any) -> Texture | None:
     return Texture(texels[::-1], color_space="linear", filter=filtering, wrap=wrap)
 
 
-def _four(values: NDArray[Any]) -> NDArray[np.uint8]:
+def four_channels(values: NDArray[Any]) -> NDArray[np.uint8]:
     """Return colours of 1 to 4 components as (N, 4) uint8."""
     values = values.reshape(len(values), -1)
     out = np.full((len(values), 4), 255, np.uint8)

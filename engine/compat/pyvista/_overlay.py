@@ -81,19 +81,15 @@ class Overlay:
         canvas.lines(flipped, tuple(int(v) for v in codes(color, 1.0)), width=max(width, 1.0))
         self._over(canvas, opacity)
 
-    def polygons(
-        self, corners: list[NDArray[np.float64]], color: NDArray[np.float64], opacity: float = 1.0
+    def triangles(
+        self, corners: NDArray[np.float64], color: NDArray[np.float64], opacity: float = 1.0
     ) -> None:
-        """Fill convex polygons, each (N, 2)."""
+        """Fill triangles, (N, 3, 2)."""
         canvas = Canvas((self.width, self.height))
         canvas.clear((0, 0, 0, 0))
-        ink = tuple(int(v) for v in codes(color, 1.0))
-        for one in corners:
-            flipped = np.array(one, np.float64)
-            flipped[:, 1] = self.height - flipped[:, 1]
-            fans = [(flipped[0], flipped[k], flipped[k + 1]) for k in range(1, len(one) - 1)]
-            if fans:
-                canvas.triangles(np.array(fans).reshape(-1, 6), ink)
+        flipped = np.array(corners, np.float64)
+        flipped[..., 1] = self.height - flipped[..., 1]
+        canvas.triangles(flipped.reshape(-1, 6), tuple(int(v) for v in codes(color, 1.0)))
         self._over(canvas, opacity)
 
     def _over(self, canvas: Canvas, opacity: float) -> None:

@@ -1,38 +1,160 @@
-"""The picture of a plotter.
+"""The picture of a window of VTK.
 
-In: a plotter of PyVista, filled. Out: its pixels, as ``screenshot`` returns them.
+In: a ``vtkRenderWindow`` with its renderers, which has no OpenGL. Out: pixels and depths.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ._actors import parts_of
-from ._layer import draw_layer
+from ...errors import InvalidArgumentError, warn
+from ._layer import depth_of, draw_layer
 from ._lights import lamps_of
 from ._overlay import Overlay
-from ._props import _FLAT, props_of
+from ._props import Content, content_of, draw_content
 from ._samples import Samples
-from ._view import view_of
+from ._view import View, view_of
+
+_SAMPLES = 4  # of a pixel, whatever kind of antialiasing is asked for
+_LARGEST = 16384
+_BEHIND = 0.005  # of the distance: how far behind a surface a label is hidden
 
 
-def picture(plotter: Any):
-    plotter._on_first_render_request()
-    width, height = plotter.window_size
-    out = Samples((width, height), 4)
-    for renderer in plotter.renderers:
-        view = view_of(renderer, (width, height))
-        parts = []
-        for q in props_of(renderer):
-            if q.IsA("vtkActor") and not q.IsA("vtkCubeAxesActor"):
-                parts += parts_of(q, view)
-        region = out.part(view.left, view.top, view.width, view.height)
-        region.fill(np.array(renderer.GetBackground()), renderer.GetBackgroundAlpha())
-        draw_layer(region, parts, lamps_of(renderer, view), view, bool(renderer.GetUseDepthPeeling()))
-        ov = Overlay(renderer, view, region)
-        for q in props_of(renderer):
-            for n, d in _FLAT.items():
-                if q.IsA(n): d(ov, q); break
-    return out.pixels()[..., :3]
+class Picture(NamedTuple):
+    """What a window shows.
+
+    Attributes
+    ----------
+    rgba : (H, W, 4) uint8
+        Alpha is 0 where only a background shows.
+    depth : (H, W) float32 or None
+        Distance along the view axis of each pixel's renderer; 0 where nothing is.
+    """
+
+    rgba: NDArray[np.uint8]
+    depth: NDArray[np.float32] | None
+
+
+def picture_of(
+    window: Any, scale: int = 1, *, is_smooth: bool = True, wants_depth: bool = False
+) -> Picture:
+    """Draw a window.
+
+    Parameters
+    ----------
+    window : vtkRenderWindow
+    scale : int
+        How many times as wide and high as the window the picture is.
+    is_smooth : bool
+        Four samples a pixel, instead of one.
+    wants_depth : bool
+
+    Raises
+    ------
+    InvalidArgumentError
+        The picture is too large, or of what the window holds nothing can be drawn.
+    """
+    with _size_of(window, scale) as size:
+        samples = Samples(size, _SAMPLES if is_smooth else 1)
+        depth = np.zeros(size[::-1], np.float32) if wants_depth else None
+        contents = []
+        for renderer in _renderers(window):
+            view = view_of(renderer, size)
+            if view is not None:
+                contents.append(_draw(renderer, view, samples, depth))
+        _tell_undrawn(contents)
+        return Picture(samples.pixels(), depth)
+
+
+@contextmanager
+def _size_of(window: Any, scale: int) -> Iterator[tuple[int, int]]:
+    """Give a window the size of its picture for a while."""
+    width, height = window.GetSize()
+    size = width * scale, height * scale
+    if not (0 < size[0] <= _LARGEST and 0 < size[1] <= _LARGEST):
+        raise InvalidArgumentError(
+            f"a picture is 1 to {_LARGEST} pixels wide and high, not {size[0]} x {size[1]}"
+        )
+    if scale == 1:
+        yield size
+        return
+    window.SetSize(*size)
+    try:
+        yield size
+    finally:
+        window.SetSize(width, height)
+
+
+def _renderers(window: Any) -> list[Any]:
+    """Return the renderers that are on, those below first."""
+    renderers = window.GetRenderers()
+    renderers.InitTraversal()
+    found = [renderers.GetNextItem() for _ in range(renderers.GetNumberOfItems())]
+    return sorted((one for one in found if one.GetDraw()), key=lambda one: one.GetLayer())
+
+
+def _draw(
+    renderer: Any, view: View, samples: Samples, depth: NDArray[np.float32] | None
+) -> Content:
+    """Draw a renderer's rectangle, and add to the depths."""
+    renderer.InvokeEvent("StartEvent")  # little axes turn with the scene by it
+    view = view_of(renderer, (samples.rgba.shape[2], samples.rgba.shape[1])) or view
+    part = samples.part(view.left, view.top, view.width, view.height)
+    if renderer.GetLayer() == 0 or not renderer.GetPreserveColorBuffer():
+        part.fill(_background(renderer, view), renderer.GetBackgroundAlpha())
+    content = content_of(renderer, view)
+    draw_layer(
+        part, content.parts, lamps_of(renderer, view), view, bool(renderer.GetUseDepthPeeling())
+    )
+    found = None
+    if depth is not None or content.labels:
+        found = depth_of(content.parts, view)
+    if depth is not None and found is not None:
+        there = depth[view.top : view.top + view.height, view.left : view.left + view.width]
+        np.copyto(there, found, where=found > 0.0)
+    draw_content(Overlay(renderer, view, part), content, _hider(view, found))
+    return content
+
+
+def _background(renderer: Any, view: View) -> NDArray[np.float64]:
+    """Return the colours of a background: (3,), or (H, 1, 3) of one that changes upwards."""
+    low = np.array(renderer.GetBackground())
+    if not renderer.GetGradientBackground():
+        return low
+    high = np.array(renderer.GetBackground2())
+    up = 1.0 - (np.arange(view.height) + 0.5) / view.height
+    return low + (high - low) * up[:, None, None]
+
+
+def _hider(
+    view: View, depth: NDArray[np.float32] | None
+) -> Callable[[NDArray[np.float64]], NDArray[np.bool_]]:
+    """Return a function that tells which places of view space something hides."""
+
+    def hidden(places: NDArray[np.float64]) -> NDArray[np.bool_]:
+        assert depth is not None
+        x, y, w = view.pixels(places).T
+        inside = (w > 0.0) & (x >= 0) & (x < view.width) & (y >= 0) & (y < view.height)
+        column = np.where(inside, x, 0.0).astype(np.int64)
+        row = np.where(inside, y, 0.0).astype(np.int64)
+        there = depth[row, column]
+        return ~inside | ((there > 0.0) & (-places[:, 2] > there * (1.0 + _BEHIND)))
+
+    return hidden
+
+
+def _tell_undrawn(contents: list[Content]) -> None:
+    undrawn = list(dict.fromkeys(name for one in contents for name in one.undrawn))
+    if not undrawn:
+        return
+    named = ", ".join(undrawn)
+    if all(one.is_empty for one in contents):
+        raise InvalidArgumentError(
+            f"engine3d does not draw {named}, and this plotter holds nothing else"
+        )
+    warn(f"engine3d does not draw {named}")

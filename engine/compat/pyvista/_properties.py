@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from vtkmodules.vtkRenderingCore import vtkProperty
 
 _PHYSICAL = 3  # VTK_PBR
 _FLAT = 0  # VTK_FLAT
@@ -70,7 +71,7 @@ class Property:
         return self.is_unlit or not (self.ambient or self.specular or self.is_physical)
 
 
-def property_of(given: Any) -> Property:
+def property_of(given: Any, is_unlit: bool = False) -> Property:
     """Return what a ``vtkProperty`` says."""
     has_edges = bool(given.GetEdgeVisibility())
     width = given.GetLineWidth()
@@ -88,7 +89,7 @@ def property_of(given: Any) -> Property:
         diffuse=given.GetDiffuse(),
         specular=given.GetSpecular(),
         power=given.GetSpecularPower(),
-        is_unlit=not given.GetLighting(),
+        is_unlit=is_unlit or not given.GetLighting(),
         is_physical=given.GetInterpolation() == _PHYSICAL,
         is_flat=given.GetInterpolation() == _FLAT,
         metallic=given.GetMetallic(),
@@ -105,3 +106,7 @@ def property_of(given: Any) -> Property:
         hides_back=bool(given.GetBackfaceCulling()),
         hides_front=bool(given.GetFrontfaceCulling()),
     )
+
+
+#: White, and nothing else.
+PLAIN = property_of(vtkProperty())

@@ -47,22 +47,22 @@ def draw_caption(overlay: Overlay, caption: Any) -> None:
     size = look.GetFontSize()
     if caption.GetTextActor().GetTextScaleMode():
         least = caption.GetTextActor().GetMinimumSize()
-        size = _fitting(look, text, max(width, least[0]), max(height, least[1]))
+        size = _fitting(overlay, look, text, max(width, least[0]), max(height, least[1]))
     offset = caption.GetPositionCoordinate().GetValue()
     write(
         overlay,
         with_size(look, size, justification=0, vertical=0),
         text,
-        x + offset[0],
-        overlay.height - y + offset[1],
+        x + overlay.scale * offset[0],
+        overlay.height - y + overlay.scale * offset[1],
     )
 
 
-def _fitting(look: Any, text: str, width: float, height: float) -> int:
+def _fitting(overlay: Overlay, look: Any, text: str, width: float, height: float) -> int:
     low, high = _SMALLEST, _LARGEST
     while low < high:
         middle = (low + high + 1) // 2
-        wide, tall = text_size(with_size(look, middle), text)
+        wide, tall = text_size(overlay, with_size(look, middle), text)
         fits = wide <= width and tall <= height
         low, high = (middle, high) if fits else (low, middle - 1)
     return low

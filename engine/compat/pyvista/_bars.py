@@ -82,7 +82,7 @@ class _Bar:
         if not self._is_vertical:
             return _Box(left + start, width - start - end - nan, bottom + 1, self._thickness)
         title = self._actor.GetTitle()
-        top = text_size(self._title, title)[1] - _LOW if title else 0
+        top = text_size(self._overlay, self._title, title)[1] - _LOW if title else 0
         start += nan + _PAD
         length = height - start - top - (end - _PAD)
         return _Box(bottom + start, length, left + 1, self._thickness)
@@ -205,9 +205,9 @@ class _Bar:
         if not title:
             return
         left, bottom, width, height = self._frame
-        high = text_size(self._label, "0")[1]
+        high = text_size(self._overlay, self._label, "0")[1]
         if self._is_vertical:
-            y = bottom + height - text_size(self._title, title)[1] + _LOW + high // 2 - 1
+            y = bottom + height - text_size(self._overlay, self._title, title)[1] + _LOW + high // 2 - 1
         else:
             y = self._bar.side + self._thickness + high - _LOW
         look = with_size(self._title, self._title.GetFontSize(), justification=1, vertical=0)

@@ -192,11 +192,11 @@ class _Box:
         if self._of(axis, "Get?AxisLabelVisibility"):
             look = _turned(actor.GetLabelTextProperty(axis), angle)
             for text, place in zip(self.labels(axis), places, strict=False):
-                write(overlay, look, text, *(place + away * _LABELS))
+                write(overlay, look, text, *(place + away * _LABELS * overlay.scale))
         title = self._of(axis, "Get?Title")
         if title:
             look = _turned(actor.GetTitleTextProperty(axis), angle)
-            write(overlay, look, title, *(places[-2] + away * _TITLES))
+            write(overlay, look, title, *(places[-2] + away * _TITLES * overlay.scale))
 
 
 def _readable(angle: float) -> float:

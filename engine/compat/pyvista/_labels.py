@@ -64,7 +64,7 @@ def _draw_label(
     pixel: Any,
     taken: list[tuple[float, float, float, float]],
 ) -> None:
-    width, height = text_size(look, text)
+    width, height = text_size(overlay, look, text)
     margin = mapper.GetMargin() if mapper.GetShape() != _NONE else 0.0
     x, y = float(pixel[0]), overlay.height - float(pixel[1])
     x -= (0.0, 0.5, 1.0)[look.GetJustification()] * width

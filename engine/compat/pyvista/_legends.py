@@ -40,7 +40,7 @@ def draw_legend(overlay: Overlay, actor: Any) -> None:
     row = (height - 2 * pad) / count
     texts = [actor.GetEntryString(k) or "" for k in range(count)]
     look = actor.GetEntryTextProperty()
-    size = _fitting(look, texts, (1.0 - _SYMBOLS) * width - 2 * pad, _LINE * row)
+    size = _fitting(overlay, look, texts, (1.0 - _SYMBOLS) * width - 2 * pad, _LINE * row)
     side = _SYMBOL * min(_SYMBOLS * width, row)
     for k, text in enumerate(texts):
         color = actor.GetEntryColor(k)
@@ -55,12 +55,14 @@ def draw_legend(overlay: Overlay, actor: Any) -> None:
         write(overlay, one, text, x + pad + _SYMBOLS * width - 2, middle - 1)
 
 
-def _fitting(look: Any, texts: list[str], width: float, height: float) -> int:
+def _fitting(
+    overlay: Overlay, look: Any, texts: list[str], width: float, height: float
+) -> int:
     """Return the largest size at which each text fits; 0 if none does."""
     low, high = 0, _LARGEST
     while low < high:
         middle = (low + high + 1) // 2
-        boxes = [text_size(with_size(look, middle), text) for text in texts if text]
+        boxes = [text_size(overlay, with_size(look, middle), text) for text in texts if text]
         fits = all(wide <= width and tall <= height for wide, tall in boxes)
         low, high = (middle, high) if fits else (low, middle - 1)
     return low

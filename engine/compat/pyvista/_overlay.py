@@ -24,26 +24,28 @@ class Overlay:
     renderer : vtkRenderer
     view : View
     width, height : int
+    scale : float
+        Pixels of the picture to a pixel of the window: that much larger are texts.
     """
 
-    def __init__(self, renderer: Any, view: View, samples: Samples) -> None:
-        self.renderer, self.view = renderer, view
+    def __init__(self, renderer: Any, view: View, samples: Samples, scale: float = 1.0) -> None:
+        self.renderer, self.view, self.scale = renderer, view, scale
         self.width, self.height = view.width, view.height
         self._samples = samples
 
     def point(self, coordinate: Any) -> tuple[float, float]:
         """Return where a ``vtkCoordinate`` is."""
         x, y = coordinate.GetComputedDoubleViewportValue(self.renderer)
-        return float(x), float(y)
+        return float(x) * self.scale, float(y) * self.scale
 
     def blend(self, rgba: NDArray[np.uint8], left: float, bottom: float) -> None:
         """Lay pixels over the picture; ``left`` and ``bottom`` are rounded to whole pixels."""
         height, width = rgba.shape[:2]
         x = int(np.floor(left + 0.5))
         y = self.height - int(np.floor(bottom + 0.5)) - height
-        cut = rgba[max(-y, 0) : self.height - y, max(-x, 0) : self.width - x]
-        if not cut.size:
+        if x >= self.width or y >= self.height or x + width <= 0 or y + height <= 0:
             return
+        cut = rgba[max(-y, 0) : self.height - y, max(-x, 0) : self.width - x]
         cover = cut[..., 3:] / np.float32(255.0)
         color = cut[..., :3] / np.float32(255.0) * cover
         self._samples.part(x, y, width, height).blend(color, cover)

@@ -5,8 +5,7 @@ In: a ``vtkRenderWindow`` with its renderers, which has no OpenGL. Out: pixels a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,35 +58,27 @@ def picture_of(
     InvalidArgumentError
         The picture is too large, or of what the window holds nothing can be drawn.
     """
-    with _size_of(window, scale) as size:
-        samples = Samples(size, _SAMPLES if is_smooth else 1)
-        depth = np.zeros(size[::-1], np.float32) if wants_depth else None
-        contents = []
-        for renderer in _renderers(window):
-            view = view_of(renderer, size)
-            if view is not None:
-                contents.append(_draw(renderer, view, samples, depth))
-        _tell_undrawn(contents)
-        return Picture(samples.pixels(), depth)
+    size = _size_of(window, scale)
+    samples = Samples(size, _SAMPLES if is_smooth else 1)
+    depth = np.zeros(size[::-1], np.float32) if wants_depth else None
+    contents = []
+    for renderer in _renderers(window):
+        renderer.InvokeEvent("StartEvent")  # little axes turn with the scene by it
+        view = view_of(renderer, size)
+        if view is not None:
+            contents.append(_draw(renderer, view, samples, depth, scale))
+    _tell_undrawn(contents)
+    return Picture(samples.pixels(), depth)
 
 
-@contextmanager
-def _size_of(window: Any, scale: int) -> Iterator[tuple[int, int]]:
-    """Give a window the size of its picture for a while."""
-    width, height = window.GetSize()
-    size = width * scale, height * scale
-    if not (0 < size[0] <= _LARGEST and 0 < size[1] <= _LARGEST):
+def _size_of(window: Any, scale: int) -> tuple[int, int]:
+    """Return the size of a window's picture, checked."""
+    width, height = (side * scale for side in window.GetSize())
+    if not (0 < width <= _LARGEST and 0 < height <= _LARGEST):
         raise InvalidArgumentError(
-            f"a picture is 1 to {_LARGEST} pixels wide and high, not {size[0]} x {size[1]}"
+            f"a picture is 1 to {_LARGEST} pixels wide and high, not {width} x {height}"
         )
-    if scale == 1:
-        yield size
-        return
-    window.SetSize(*size)
-    try:
-        yield size
-    finally:
-        window.SetSize(width, height)
+    return width, height
 
 
 def _renderers(window: Any) -> list[Any]:
@@ -99,11 +90,9 @@ def _renderers(window: Any) -> list[Any]:
 
 
 def _draw(
-    renderer: Any, view: View, samples: Samples, depth: NDArray[np.float32] | None
+    renderer: Any, view: View, samples: Samples, depth: NDArray[np.float32] | None, scale: int
 ) -> Content:
     """Draw a renderer's rectangle, and add to the depths."""
-    renderer.InvokeEvent("StartEvent")  # little axes turn with the scene by it
-    view = view_of(renderer, (samples.rgba.shape[2], samples.rgba.shape[1])) or view
     part = samples.part(view.left, view.top, view.width, view.height)
     if renderer.GetLayer() == 0 or not renderer.GetPreserveColorBuffer():
         part.fill(_background(renderer, view), renderer.GetBackgroundAlpha())
@@ -117,7 +106,7 @@ def _draw(
     if depth is not None and found is not None:
         there = depth[view.top : view.top + view.height, view.left : view.left + view.width]
         np.copyto(there, found, where=found > 0.0)
-    draw_content(Overlay(renderer, view, part), content, _hider(view, found))
+    draw_content(Overlay(renderer, view, part, scale), content, _hider(view, found))
     return content
 
 

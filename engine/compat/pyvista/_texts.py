@@ -50,13 +50,14 @@ class Writing(NamedTuple):
     bottom: int
 
 
-def written(look: Any, text: str) -> Writing | None:
+def written(overlay: Overlay, look: Any, text: str) -> Writing | None:
     """Return a text as pixels; None where there are none."""
+    dpi = _dpi(overlay)
     renderer, image = vtkTextRenderer.GetInstance(), vtkImageData()
     size, box = [0, 0], [0, 0, 0, 0]
-    if not text or renderer is None or not renderer.RenderString(look, text, image, size, _DPI):
+    if not text or renderer is None or not renderer.RenderString(look, text, image, size, dpi):
         return None
-    renderer.GetBoundingBox(look, text, box, _DPI)
+    renderer.GetBoundingBox(look, text, box, dpi)
     width, height, _ = image.GetDimensions()
     rgba = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)
     rgba = rgba[: min(size[1], height), : min(size[0], width)][::-1]
@@ -65,16 +66,20 @@ def written(look: Any, text: str) -> Writing | None:
     return Writing(np.ascontiguousarray(rgba), box[0], box[2])
 
 
-def text_size(look: Any, text: str) -> tuple[int, int]:
+def _dpi(overlay: Overlay) -> int:
+    return round(_DPI * overlay.scale)
+
+
+def text_size(overlay: Overlay, look: Any, text: str) -> tuple[int, int]:
     """Return the width and height of a text in pixels."""
     box = [0, 0, 0, 0]
-    vtkTextRenderer.GetInstance().GetBoundingBox(look, text, box, _DPI)
+    vtkTextRenderer.GetInstance().GetBoundingBox(look, text, box, _dpi(overlay))
     return max(box[1] - box[0] + 1, 0), max(box[3] - box[2] + 1, 0)
 
 
 def write(overlay: Overlay, look: Any, text: str, x: float, y: float) -> None:
     """Write a text whose justified corner stands at x, y, in pixels from the view's left bottom."""
-    done = written(look, text)
+    done = written(overlay, look, text)
     if done is not None:
         overlay.blend(done.rgba, x + done.left, y + done.bottom)
 
@@ -104,7 +109,7 @@ def draw_corners(overlay: Overlay, actor: Any) -> None:
     """Draw a ``vtkCornerAnnotation``."""
     texts = [actor.GetText(k) or "" for k in range(8)]
     look = actor.GetTextProperty()
-    largest = _fitting(look, texts, overlay.width, overlay.height)
+    largest = _fitting(overlay, look, texts)
     scaled = float(largest) ** actor.GetNonlinearFontScaleFactor()
     size = min(int(scaled * actor.GetLinearFontScaleFactor()), actor.GetMaximumFontSize())
     if size < actor.GetMinimumFontSize():
@@ -120,15 +125,16 @@ def _place(share: float, length: int) -> float:
     return _MARGIN if share == 0.0 else length - _MARGIN
 
 
-def _fitting(look: Any, texts: list[str], width: int, height: int) -> int:
+def _fitting(overlay: Overlay, look: Any, texts: list[str]) -> int:
     """Return the largest size at which texts side by side, and above each other, fit."""
     low, high = 0, _LARGEST
     while low < high:
         middle = (low + high + 1) // 2
-        boxes = [text_size(with_size(look, middle), text) if text else (0, 0) for text in texts]
+        one = with_size(look, middle)
+        boxes = [text_size(overlay, one, text) if text else (0, 0) for text in texts]
         wide = max(boxes[k][0] + boxes[k + 1][0] for k in (0, 2, 4, 6))
         tall = max(boxes[0][1] + boxes[2][1], boxes[1][1] + boxes[3][1])
-        if wide < width and tall < height:
+        if wide < overlay.width and tall < overlay.height:
             low = middle
         else:
             high = middle - 1

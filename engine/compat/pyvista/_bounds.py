@@ -26,9 +26,10 @@ _CLOSEST, _FURTHEST, _STATIC_TRIAD, _STATIC_EDGES = 1, 2, 3, 4  # fly modes; 0: 
 _ALL_GRIDS, _CLOSEST_GRIDS = 0, 1
 _INSIDE, _BOTH = 0, 2
 _TICK = 0.02  # of the box's diagonal
-# Pixels between an axis and the middles of its labels, and of its title, as measured on VTK 9.7.
-_LABELS = 25
-_TITLES = 57
+# Pixels from an axis to the middles of its labels and of its title, outwards and towards its end, as
+# measured on VTK 9.7.
+_LABELS = 22.5, 2.0
+_TITLES = 54.0, 8.0
 _LARGER = 1.25  # VTK's labels in space than those of the same size on the picture
 _STEEP = -75.0  # degrees: steeper texts are read upwards
 
@@ -121,11 +122,16 @@ class _Box:
         for edge in self.edges():
             if self._of(edge.axis, "Get?AxisVisibility"):
                 yield self._strokes(self._along(edge, np.array([0.0, 1.0]))[None], edge.axis, "Axes")
-                if self._of(edge.axis, "Get?AxisTickVisibility"):
+                if self._of(edge.axis, "Get?AxisTickVisibility") and not self._hides_ticks(edge.axis):
                     yield self._strokes(self._ticks(edge), edge.axis, "Axes")
         for axis in range(3):
             if self._of(axis, "GetDraw?Gridlines"):
                 yield self._strokes(self._grid(axis), axis, "Gridlines")
+
+    def _hides_ticks(self, axis: int) -> bool:
+        """Return whether the lines of the grid are where ticks would be."""
+        has_grid = self._of(axis, "GetDraw?Gridlines")
+        return bool(has_grid) and self._actor.GetTickLocation() == _INSIDE
 
     def _strokes(self, ends: NDArray[np.float64], axis: int, kind: str) -> Part:
         name = "Get?AxesLinesProperty" if kind == "Axes" else "Get?AxesGridlinesProperty"
@@ -189,14 +195,18 @@ class _Box:
         if ((places[-2] - (middle[0], overlay.height - middle[1])) * away).sum() < 0.0:
             away = -away
         angle = _readable(float(np.degrees(np.arctan2(along[1], along[0]))))
+        ahead = along / max(float(np.hypot(*along)), 1e-300)
+        label, title_at = (
+            (away * off + ahead * on) * overlay.scale for off, on in (_LABELS, _TITLES)
+        )
         if self._of(axis, "Get?AxisLabelVisibility"):
             look = _turned(actor.GetLabelTextProperty(axis), angle)
             for text, place in zip(self.labels(axis), places, strict=False):
-                write(overlay, look, text, *(place + away * _LABELS * overlay.scale))
+                write(overlay, look, text, *(place + label))
         title = self._of(axis, "Get?Title")
         if title:
             look = _turned(actor.GetTitleTextProperty(axis), angle)
-            write(overlay, look, title, *(places[-2] + away * _TITLES * overlay.scale))
+            write(overlay, look, title, *(places[-2] + title_at))
 
 
 def _readable(angle: float) -> float:

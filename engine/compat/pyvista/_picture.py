@@ -15,7 +15,7 @@ from ...errors import InvalidArgumentError, warn
 from ._layer import depth_of, draw_layer
 from ._lights import lamps_of
 from ._overlay import Overlay
-from ._props import Content, content_of, draw_content
+from ._props import Content, content_of, draw_content, passes_of
 from ._samples import Samples
 from ._view import View, view_of
 
@@ -87,6 +87,16 @@ def _renderers(window: Any) -> list[Any]:
     renderers.InitTraversal()
     found = [renderers.GetNextItem() for _ in range(renderers.GetNumberOfItems())]
     return sorted((one for one in found if one.GetDraw()), key=lambda one: one.GetLayer())
+
+
+def is_smooth(window: Any) -> bool:
+    """Return whether a window asks for antialiasing of any kind."""
+    if window.GetMultiSamples() > 1:
+        return True
+    return any(
+        renderer.GetUseFXAA() or "vtkSSAAPass" in passes_of(renderer)
+        for renderer in _renderers(window)
+    )
 
 
 def _draw(

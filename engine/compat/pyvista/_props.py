@@ -66,6 +66,8 @@ _FLAT: dict[str, _Draw] = {
 #: Mappers of `vtkActor2D`.
 _FLAT_MAPPERS: dict[str, _Draw] = {"vtkPolyDataMapper2D": draw_flat}
 _LABELS = "vtkLabelPlacementMapper"
+#: Antialiasing: four samples a pixel stand for all kinds.
+_DRAWN_PASSES = ("vtkSSAAPass", "vtkOpenGLFXAAPass")
 #: What VTK draws and engine3d does not, by class.
 _UNDRAWN = {
     "vtkVolume": "volumes",
@@ -98,8 +100,8 @@ class Content:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing is drawn."""
-        return not (self.parts or self.flat or self.labels)
+        """Whether nothing is drawn but bars of what may not be."""
+        return not (self.parts or self.labels) and all(draw is draw_bar for draw, _ in self.flat)
 
 
 def content_of(renderer: Any, view: View) -> Content:
@@ -107,7 +109,7 @@ def content_of(renderer: Any, view: View) -> Content:
     found = Content()
     for prop in _props(renderer):
         _sort_in(found, prop, view)
-    found.undrawn += _passes(renderer)
+    found.undrawn += _effects(renderer)
     return found
 
 
@@ -142,19 +144,24 @@ def _sort_in(found: Content, prop: Any, view: View) -> None:
         found.undrawn.append(prop.GetClassName())
 
 
-def _passes(renderer: Any) -> list[str]:
+def passes_of(renderer: Any) -> list[str]:
+    """Return the classes of the render passes that PyVista gave a renderer."""
+    return list(getattr(getattr(renderer, "_render_passes", None), "_passes", {}))
+
+
+def _effects(renderer: Any) -> list[str]:
     """Return the effects of a renderer that are not drawn."""
-    passes = getattr(getattr(renderer, "_render_passes", None), "_passes", {})
-    names = [f"the effect {name}" for name in passes if name not in _DRAWN_PASSES]
+    names = [f"the effect {name}" for name in passes_of(renderer) if name not in _DRAWN_PASSES]
     if renderer.GetUseHiddenLineRemoval():
         names.append("the removal of hidden lines")
+    if renderer.GetUseShadows():
+        names.append("shadows")
     if renderer.GetUseImageBasedLighting() and renderer.GetEnvironmentTexture() is not None:
         names.append("light of an environment texture")
+    window = renderer.GetRenderWindow()
+    if window is not None and window.GetStereoRender():
+        names.append("stereo")
     return names
-
-
-#: Antialiasing: four samples a pixel stand for all kinds.
-_DRAWN_PASSES = ("vtkSSAAPass", "vtkOpenGLFXAAPass")
 
 
 def draw_content(overlay: Overlay, content: Content, hidden: Any) -> None:

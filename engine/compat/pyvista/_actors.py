@@ -29,7 +29,7 @@ from ._surfaces import (
     triangles_of,
     without_strips,
 )
-from ._view import View, matrix_of, product, turned
+from ._view import View, matrix_of, product, transformed, turned
 
 _POINTS, _WIRES = 0, 1
 
@@ -53,7 +53,7 @@ def parts_of(actor: Any, view: View, matrix: NDArray[np.float64] | None = None) 
 def _sides(part: Part, back: Property | None, view: View) -> Iterator[Part]:
     """Yield the sides of a part that show, with the look of each."""
     look = part.look
-    if not (look.hides_back or look.hides_front or back is not None):
+    if not (look.hides_back or look.hides_front or (back is not None and part.is_face)):
         yield part
         return
     if not look.hides_front:
@@ -77,7 +77,7 @@ class _Shown:
     ) -> None:
         self._data, self._view, self._look = data, view, look
         points = vtk_to_numpy(data.GetPoints().GetData())
-        from ._view import transformed
+
 
         self._places = transformed(matrix, points)
         self._paint, self._is_of_cells = paint_of(mapper, data)
@@ -122,7 +122,7 @@ class _Shown:
         yield from self._of_dots(dots_of(self._data))
         yield from self._of_lines(segments_of(self._data))
         if style == _WIRES:
-            yield from self._of_lines(outlines_of(self._data))
+            yield from self._of_lines(outlines_of(self._data), is_wire=True)
         else:
             yield from self._of_faces()
 
@@ -137,9 +137,9 @@ class _Shown:
             normals = None if normals is None else normals[corners]
             paint = paint.taken(np.repeat(cells, 3))
             faces = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
-        yield Part(places, faces, self._look, normals, paint, edges)
+        yield Part(places, faces, self._look, normals, paint, edges, is_face=True)
 
-    def _of_lines(self, segments: Segments) -> Iterator[Part]:
+    def _of_lines(self, segments: Segments, is_wire: bool = False) -> Iterator[Part]:
         if not len(segments.ends):
             return
         rows = segments.ends.reshape(-1)
@@ -147,7 +147,7 @@ class _Shown:
         normals = None if self._normals is None else self._normals[rows].reshape(-1, 2, 3)
         ends = self._places[rows].reshape(-1, 2, 3)
         paint = self._paint.taken(cells if self._is_of_cells else rows)
-        yield strokes(self._view, ends, paint, self._of_marks(self._look.has_tubes), normals)
+        yield strokes(self._view, ends, paint, self._of_marks(is_wire or self._look.has_tubes), normals)
 
     def _of_dots(self, points: Segments) -> Iterator[Part]:
         if not len(points.ends):
@@ -158,11 +158,13 @@ class _Shown:
         look = self._of_marks(self._look.has_balls)
         yield dots(self._view, self._places[rows], paint, look, normals)
 
-    def _of_marks(self, is_round: bool) -> Property:
-        """Return the look of lines and points: without normals, VTK does not light them."""
-        is_lit = is_round or self._normals is not None
+    def _of_marks(self, is_lit: bool) -> Property:
+        """Return the look of lines and points: without normals, VTK lights only some."""
+        is_lit = is_lit or self._normals is not None
         is_unlit = self._look.is_unlit or not is_lit
-        return replace(self._look, edge_width=0.0, is_unlit=is_unlit)
+        return replace(
+            self._look, edge_width=0.0, is_unlit=is_unlit, hides_back=False, hides_front=False
+        )
 
     def _of_corners(self) -> Iterator[Part]:
         """Yield the corners of all cells as points."""

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkRenderingCore import vtkMapper
 
 from ...model.materials.textures import Texture
@@ -22,7 +23,6 @@ def paint_of(mapper: Any, data: Any) -> tuple[Paint, bool]:
     """Return the colours of a surface, and whether they are those of its cells."""
     if not mapper.GetScalarVisibility():
         return Paint(), False
-    from vtkmodules.vtkCommonCore import reference
 
     kind = reference(0)
     found = vtkMapper.GetAbstractScalars(
@@ -34,7 +34,8 @@ def paint_of(mapper: Any, data: Any) -> tuple[Paint, bool]:
         kind,
     )
     if found is None:
-        return _missing(mapper), False
+        return Paint(), False
+    mapper.ClearColorArrays()  # those of another block
     mapped = mapper.MapScalars(data, 1.0)
     if mapped is not None:
         rgba = four_channels(vtk_to_numpy(mapped))
@@ -48,12 +49,8 @@ def paint_of(mapper: Any, data: Any) -> tuple[Paint, bool]:
     width, height, _ = image.GetDimensions()
     texels = four_channels(vtk_to_numpy(image.GetPointData().GetScalars())).reshape(height, width, 4)
     texture = Texture(texels[::-1], color_space="linear", filter="nearest", wrap="clamp")
-    coordinates = np.asarray(vtk_to_numpy(uvs), np.float32)
+    coordinates = vtk_to_numpy(uvs).astype(np.float32)
     return Paint(uvs=coordinates, image=texture, is_clear=_is_clear(texels)), False
-
-
-def _missing(mapper: Any) -> Paint:
-    return Paint()
 
 
 def texture_of(texture: Any) -> Texture | None:

@@ -85,6 +85,8 @@ class Part:
     spots : (N, 4) float64 or None
         Where the part stands, many times: offsets and sizes.
     spot_colors : (N, 4) uint8 or None
+    is_face : bool
+        Whether these are faces of a surface, which has two sides, instead of lines or points.
     """
 
     places: NDArray[np.float64]
@@ -95,6 +97,7 @@ class Part:
     edges: NDArray[np.bool_] | None = None
     spots: NDArray[np.float64] | None = None
     spot_colors: NDArray[np.uint8] | None = None
+    is_face: bool = False
 
     @property
     def is_clear(self) -> bool:

@@ -21,7 +21,7 @@ def strokes(
     ends: NDArray[np.float64],
     paint: Paint,
     look: Property,
-    normals: NDArray[np.float64] | None,
+    normals: NDArray[np.float64] | None = None,
 ) -> Part:
     """Return the rectangles of segments.
 
@@ -32,7 +32,7 @@ def strokes(
     paint : Paint
         Of the 2 S ends, segment by segment.
     normals : (S, 2, 3) float64 or None
-        For light; None: none.
+        For light; None: each stroke faces the camera as far as it can.
     """
     kept, ends, shares = _before_camera(view, ends)
     rows = (2 * kept[:, None] + np.arange(2)).reshape(-1)
@@ -58,7 +58,7 @@ def strokes(
     elif normals is not None:
         lit = np.broadcast_to(normals[kept][:, :, None], places.shape)
     else:
-        lit = np.broadcast_to((0.0, 0.0, 1.0), places.shape)
+        lit = np.broadcast_to(_facing(direction)[:, None, None], places.shape)
     width = len(columns)
     return Part(
         places=places.reshape(-1, 3),
@@ -75,6 +75,12 @@ def _faces(count: int, width: int) -> NDArray[np.int32]:
     one = np.stack([k, k + width, k + 1, k + 1, k + width, k + 1 + width], -1).reshape(-1, 3)
     firsts = np.arange(count, dtype=np.int32) * np.int32(2 * width)
     return (firsts[:, None, None] + one).reshape(-1, 3)
+
+
+def _facing(direction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what VTK takes for the normals of lines: across them, towards the viewer."""
+    x, y, z = direction.T
+    return np.stack([-x * z, -y * z, x * x + y * y], -1)
 
 
 def _tube(

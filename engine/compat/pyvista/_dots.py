@@ -15,9 +15,14 @@ from ._parts import Paint, Part
 from ._properties import Property
 from ._view import View
 
+#: Sides and radii of the rings of half balls, by the largest size in pixels, and of how many.
+_BALLS = (
+    (5.0, 8, (1.0,)),
+    (14.0, 12, (0.55, 0.87, 1.0)),
+    (np.inf, 24, (0.35, 0.65, 0.87, 0.97, 1.0)),
+)
+_MANY = 20000  # of so many balls, none has the most sides
 _SIDES = 24
-_FEW_SIDES = 8
-_SMALL = 5.0  # pixels: smaller balls have fewer sides
 
 
 def dots(
@@ -44,23 +49,41 @@ def dots(
         centers, paint = centers[rows], paint.taken(rows)
         normals = None if normals is None else normals[rows]
     baked = paint.baked()
-    half = 0.5 * look.point_size * view.pixel_sizes(centers)
     if look.has_balls:
-        places, faces = _half_ball(_SIDES if look.point_size > _SMALL else _FEW_SIDES)
-        away = places
-    else:
+        return _spread(view, centers, *_half_ball(look.point_size, len(centers)), baked, look)
+    if normals is not None:
         places, faces = _disc() if look.round_points else _square()
-        away = np.tile([0.0, 0.0, 1.0], (len(places), 1))
-        if normals is not None:
-            return _apart(centers, half, places, faces, normals, baked, look)
+        half = 0.5 * look.point_size * view.pixel_sizes(centers)
+        return _apart(centers, half, places, faces, normals, baked, look)
+    none = np.zeros((0, 3), np.int32)
+    return Part(places=centers, faces=none, look=look, paint=baked, is_points=True)
+
+
+def spread_points(part: Part, view: View) -> Part:
+    """Return points that the core draws as triangles, so that they may be clear, or of any size."""
+    places, faces = _disc() if part.look.round_points else _square()
+    return _spread(view, part.places, places, faces, part.paint, part.look)
+
+
+def _spread(
+    view: View,
+    centers: NDArray[np.float64],
+    places: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    paint: Paint,
+    look: Property,
+) -> Part:
+    """Return a mark that stands at each point."""
+    half = 0.5 * look.point_size * view.pixel_sizes(centers)
+    is_flat = not places[:, 2].any()
     return Part(
         places=places,
         faces=faces,
         look=look,
-        normals=away,
+        normals=np.tile([0.0, 0.0, 1.0], (len(places), 1)) if is_flat else places,
         paint=Paint(is_clear=paint.is_clear),
         spots=np.concatenate([centers, half[:, None]], 1),
-        spot_colors=baked.rgba,
+        spot_colors=paint.rgba,
     )
 
 
@@ -96,8 +119,10 @@ def _disc() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     return places * (1.0, 1.0, 0.0), faces
 
 
-def _half_ball(sides: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    return _rings((1.0,) if sides == _FEW_SIDES else (0.35, 0.65, 0.87, 0.97, 1.0), sides)
+def _half_ball(size: float, count: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    kinds = _BALLS[:-1] if count > _MANY else _BALLS
+    _, sides, radii = next((one for one in kinds if size <= one[0]), kinds[-1])
+    return _rings(radii, sides)
 
 
 def _rings(

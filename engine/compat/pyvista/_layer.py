@@ -7,22 +7,29 @@ camera that is moved by a part of a pixel: what the core does not know of VTK's 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
 from ...model.scene.cameras import Camera
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
+from ...rendering.options import MAX_LINE
 from ...rendering.renderer import Renderer
 from ._clear import mixture
+from ._dots import spread_points
 from ._edges import edge_shares
+from ._facets import facet_normals
 from ._finish import shade
 from ._lights import Lamp, add_lights
 from ._parts import Part
+from ._properties import PLAIN, Property
 from ._samples import Samples
 from ._view import View, product
 
+_MANY = 100_000  # faces: the normals of so many are found where they show
 _OF_LIGHT = {"object_id", "albedo", "world_normal", "world_position"}
+_OF_FACETS = {"object_id", "face_id", "albedo", "world_position"}
 _OF_EDGES = {"object_id", "face_id"}
 
 
@@ -39,21 +46,41 @@ def draw_layer(
         Whether clear faces lie over each other from far to near, instead of being mixed. As in VTK,
         they have one sample a pixel.
     """
-    shown = [part for part in parts if len(part.faces)]
-    solid = [part for part in shown if not part.is_clear]
-    clear = [part for part in shown if part.is_clear]
+    shown = [part for part in parts if not part.is_empty]
+    solid, points = _with_one_size([part for part in shown if not part.is_clear], view)
+    clear = [_spread(part, view) for part in shown if part.is_clear]
     if solid:
-        _Solid(solid, lamps, view).draw(samples)
+        _Solid(solid, lamps, view, points).draw(samples)
     if clear:
         samples.blend(*mixture(solid, clear, lamps, view, peels))
+
+
+def _spread(part: Part, view: View) -> Part:
+    return spread_points(part, view) if part.is_points else part
+
+
+def _with_one_size(parts: list[Part], view: View) -> tuple[list[Part], Property]:
+    """Return parts whose points all look alike, and the look; others become triangles."""
+    looks = [part.look for part in parts if part.is_points]
+    if not looks:
+        return parts, PLAIN
+    most = max((part for part in parts if part.is_points), key=lambda part: len(part.places))
+    wanted = most.look.point_size, most.look.round_points
+    if wanted[0] > MAX_LINE:
+        return [_spread(part, view) for part in parts], PLAIN
+
+    def fits(part: Part) -> bool:
+        return (part.look.point_size, part.look.round_points) == wanted
+
+    return [part if fits(part) else _spread(part, view) for part in parts], most.look
 
 
 def depth_of(parts: list[Part], view: View) -> NDArray[np.float32]:
     """Return distances along the view axis in the middles of pixels, (H, W); 0 where nothing is."""
     scene = Scene(background=None)
-    for part in parts:
-        if len(part.faces):
-            part.added(scene, part.material(opacity=1.0))
+    alike, points = _with_one_size([part for part in parts if not part.is_empty], view)
+    for part in alike:
+        part.added(scene, part.material(opacity=1.0))
     renderer = Renderer((view.width, view.height), color_space="linear")
     camera = Camera(view.projection), np.eye(4)
     return renderer.render(
@@ -63,22 +90,40 @@ def depth_of(parts: list[Part], view: View) -> NDArray[np.float32]:
         outputs=("depth",),
         cull="none",
         transparent_outputs=True,
+        **_point_options(points),
     ).depth
+
+
+def _point_options(look: Property) -> dict[str, Any]:
+    shape = "round" if look.round_points else "square"
+    return {"point_size": min(max(look.point_size, 1e-3), MAX_LINE), "point_shape": shape}
 
 
 @dataclass
 class _Unfinished:
-    """A part whose samples are changed; ``is_lit`` if the core knows all of its light."""
+    """A part whose samples are changed.
+
+    Attributes
+    ----------
+    part : Part
+    is_lit : bool
+        Whether the core knows all of its light.
+    is_faceted : bool
+        Whether its normals are those of the faces that show: of many, most don't.
+    """
 
     part: Part
     is_lit: bool
+    is_faceted: bool
 
 
 class _Solid:
     """Parts that hide what is behind them."""
 
-    def __init__(self, parts: list[Part], lamps: list[Lamp], view: View) -> None:
-        self._lamps, self._view = lamps, view
+    def __init__(
+        self, parts: list[Part], lamps: list[Lamp], view: View, points: Property
+    ) -> None:
+        self._lamps, self._view, self._points = lamps, view, points
         self._scene = Scene(background=None, ambient=(0, 0, 0))
         self._unfinished: dict[int, _Unfinished] = {}
         self._outputs = {"color"}
@@ -89,15 +134,18 @@ class _Solid:
 
     def _add(self, part: Part, is_plain: bool) -> None:
         look = part.look
-        is_lit = look.is_unlit or (look.is_matt and is_plain)
+        is_faceted = part.normals is None and len(part.faces) > _MANY and not look.is_unlit
+        is_lit = look.is_unlit or (look.is_matt and is_plain and not is_faceted)
         factor = look.ambient + look.diffuse if look.is_unlit else look.diffuse
-        node = part.added(self._scene, part.material(factor if is_lit else 1.0))
+        material = part.material(factor if is_lit else 1.0)
+        material.unlit = not is_lit or look.is_unlit
+        node = part.added(self._scene, material)
         if not is_lit:
-            self._outputs |= _OF_LIGHT
+            self._outputs |= _OF_FACETS if is_faceted else _OF_LIGHT
         if look.edge_width:
             self._outputs |= _OF_EDGES
         if not is_lit or look.edge_width:
-            self._unfinished[node.id] = _Unfinished(part, is_lit)
+            self._unfinished[node.id] = _Unfinished(part, is_lit, is_faceted)
 
     def draw(self, samples: Samples) -> None:
         """Draw the parts over samples."""
@@ -114,6 +162,7 @@ class _Solid:
             (Camera(projection), np.eye(4)),
             outputs=tuple(sorted(self._outputs)),
             cull="none",
+            **_point_options(self._points),
         )
 
     def _finish(self, frame: Frame) -> None:
@@ -126,7 +175,7 @@ class _Solid:
             if one.is_lit:
                 found = color[rows, :3].astype(np.float64)
             else:
-                found = 255.0 * self._shaded(frame, rows, one.part)
+                found = 255.0 * self._shaded(frame, rows, one)
             if one.part.look.edge_width:
                 found = self._edged(frame, rows, one.part, found)
             color[rows, :3] = np.clip(found + 0.5, 0.0, 255.0).astype(np.uint8)
@@ -140,14 +189,24 @@ class _Solid:
         share *= part.look.edge_opacity
         return colors * (1.0 - share) + 255.0 * part.look.edge_color * share
 
-    def _shaded(self, frame: Frame, rows: NDArray[np.intp], part: Part) -> NDArray[np.float64]:
-        albedo, normals, places = (
-            array.reshape(-1, 3)[rows].astype(np.float64)
-            for array in (frame.albedo, frame.world_normal, frame.world_position)
-        )
+    def _shaded(
+        self, frame: Frame, rows: NDArray[np.intp], one: _Unfinished
+    ) -> NDArray[np.float64]:
+        albedo = _values(frame.albedo, rows)
+        places = _values(frame.world_position, rows)
+        if one.is_faceted:
+            faces = frame.face_id.reshape(-1)[rows]
+            normals = facet_normals(one.part, faces, places, self._view)
+        else:
+            normals = _values(frame.world_normal, rows)
+        part = one.part
         is_own = part.has_colors or not part.paint.is_plain
         ambient = albedo if is_own else np.broadcast_to(part.look.ambient_color, albedo.shape)
         return shade(part.look, albedo, ambient, normals, places, self._lamps)
+
+
+def _values(array: NDArray[np.float32], rows: NDArray[np.intp]) -> NDArray[np.float64]:
+    return array.reshape(-1, 3)[rows].astype(np.float64)
 
 
 def _moved(view: View, right: float, down: float) -> NDArray[np.float64]:

@@ -85,6 +85,8 @@ class Part:
     spots : (N, 4) float64 or None
         Where the part stands, many times: offsets and sizes.
     spot_colors : (N, 4) uint8 or None
+    is_points : bool
+        Whether the places are points, which the core draws as squares or discs.
     is_face : bool
         Whether these are faces of a surface, which has two sides, instead of lines or points.
     """
@@ -97,7 +99,15 @@ class Part:
     edges: NDArray[np.bool_] | None = None
     spots: NDArray[np.float64] | None = None
     spot_colors: NDArray[np.uint8] | None = None
+    is_points: bool = False
     is_face: bool = False
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is there to be drawn."""
+        if self.is_points:
+            return not len(self.places)
+        return not len(self.faces) or (self.spots is not None and not len(self.spots))
 
     @property
     def is_clear(self) -> bool:
@@ -126,6 +136,7 @@ class Part:
         mesh = Mesh(
             self.places.astype(np.float32),
             self.faces,
+            points=np.arange(len(self.places), dtype=np.int32) if self.is_points else None,
             normals=None if self.normals is None else _unit(self.normals),
             colors=self.paint.rgba,
             uvs=self.paint.uvs,

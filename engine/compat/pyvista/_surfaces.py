@@ -99,6 +99,8 @@ def dots_of(data: Any) -> Segments:
 
 
 def _open(sizes: NDArray[np.int32], corners: NDArray[np.int32], first: int) -> Segments:
+    if not len(corners):
+        return Segments(np.zeros((0, 2), np.int32), np.zeros(0, np.int32))
     begins = np.ones(len(corners), bool)
     begins[np.cumsum(sizes) - 1] = False
     starts = np.flatnonzero(begins)

@@ -18,7 +18,7 @@ from ...errors import warn
 from ._blocks import surfaces_of
 from ._colors import paint_of, texture_of
 from ._dots import dots
-from ._parts import Paint, Part
+from ._parts import MANY, Paint, Part
 from ._properties import Property, property_of
 from ._strokes import strokes
 from ._surfaces import (
@@ -130,14 +130,13 @@ class _Shown:
         faces, cells, edges = triangles_of(self._data, self._places)
         if not len(faces):
             return
-        places, normals, paint = self._places, self._normals, self._paint
-        if self._is_of_cells:
-            corners = faces.reshape(-1)
-            places = places[corners]
-            normals = None if normals is None else normals[corners]
-            paint = paint.taken(np.repeat(cells, 3))
-            faces = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
-        yield Part(places, faces, self._look, normals, paint, edges, is_face=True)
+        paint = Paint() if self._is_of_cells else self._paint
+        part = Part(self._places, faces, self._look, self._normals, paint, edges, is_face=True)
+        if self._is_of_cells and self._paint.rgba is not None:
+            part.face_rgba = self._paint.rgba[cells]
+            if len(faces) <= MANY or self._paint.is_clear:
+                part = part.with_own_corners()
+        yield part
 
     def _of_lines(self, segments: Segments, is_wire: bool = False) -> Iterator[Part]:
         if not len(segments.ends):

@@ -37,6 +37,8 @@ def shade(
     normals, places : (N, 3) float64
         In view space; normals have unit length and face the camera.
     """
+    if look.is_unlit:
+        return (look.ambient + look.diffuse) * albedo
     to_viewer = _unit(-places)
     if look.is_physical:
         return _physical(look, albedo, normals, places, to_viewer, lamps)

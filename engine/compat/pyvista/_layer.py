@@ -22,12 +22,11 @@ from ._edges import edge_shares
 from ._facets import facet_normals
 from ._finish import shade
 from ._lights import Lamp, add_lights
-from ._parts import Part
+from ._parts import MANY, Part
 from ._properties import PLAIN, Property
 from ._samples import Samples
 from ._view import View, product
 
-_MANY = 100_000  # faces: the normals of so many are found where they show
 _OF_LIGHT = {"object_id", "albedo", "world_normal", "world_position"}
 _OF_FACETS = {"object_id", "face_id", "albedo", "world_position"}
 _OF_EDGES = {"object_id", "face_id"}
@@ -134,15 +133,17 @@ class _Solid:
 
     def _add(self, part: Part, is_plain: bool) -> None:
         look = part.look
-        is_faceted = part.normals is None and len(part.faces) > _MANY and not look.is_unlit
-        is_lit = look.is_unlit or (look.is_matt and is_plain and not is_faceted)
+        is_faceted = part.normals is None and len(part.faces) > MANY and not look.is_unlit
+        is_known = look.is_unlit or (look.is_matt and is_plain and not is_faceted)
+        is_lit = is_known and part.face_rgba is None
         factor = look.ambient + look.diffuse if look.is_unlit else look.diffuse
         material = part.material(factor if is_lit else 1.0)
         material.unlit = not is_lit or look.is_unlit
+        material.flat_shading = material.flat_shading and not (is_faceted or look.is_unlit)
         node = part.added(self._scene, material)
         if not is_lit:
             self._outputs |= _OF_FACETS if is_faceted else _OF_LIGHT
-        if look.edge_width:
+        if look.edge_width or part.face_rgba is not None:
             self._outputs |= _OF_EDGES
         if not is_lit or look.edge_width:
             self._unfinished[node.id] = _Unfinished(part, is_lit, is_faceted)
@@ -192,14 +193,16 @@ class _Solid:
     def _shaded(
         self, frame: Frame, rows: NDArray[np.intp], one: _Unfinished
     ) -> NDArray[np.float64]:
-        albedo = _values(frame.albedo, rows)
-        places = _values(frame.world_position, rows)
+        part, places = one.part, _values(frame.world_position, rows)
+        if part.face_rgba is None:
+            albedo = _values(frame.albedo, rows)
+        else:
+            albedo = part.face_rgba[frame.face_id.reshape(-1)[rows], :3] / 255.0
         if one.is_faceted:
             faces = frame.face_id.reshape(-1)[rows]
-            normals = facet_normals(one.part, faces, places, self._view)
+            normals = facet_normals(part, faces, places, self._view)
         else:
             normals = _values(frame.world_normal, rows)
-        part = one.part
         is_own = part.has_colors or not part.paint.is_plain
         ambient = albedo if is_own else np.broadcast_to(part.look.ambient_color, albedo.shape)
         return shade(part.look, albedo, ambient, normals, places, self._lamps)

@@ -19,6 +19,9 @@ from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ._properties import Property
 
+#: So many faces are shaded where they show, instead of each.
+MANY = 100_000
+
 
 @dataclass
 class Paint:
@@ -82,6 +85,8 @@ class Part:
         The colours of the vertices.
     edges : (F, 3) bool or None
         Which edges of faces are edges of polygons; None: all.
+    face_rgba : (F, 4) uint8 or None
+        The colours of faces, of so many that vertices of their own would take long.
     spots : (N, 4) float64 or None
         Where the part stands, many times: offsets and sizes.
     spot_colors : (N, 4) uint8 or None
@@ -97,6 +102,7 @@ class Part:
     normals: NDArray[np.float64] | None = None
     paint: Paint = field(default_factory=Paint)
     edges: NDArray[np.bool_] | None = None
+    face_rgba: NDArray[np.uint8] | None = None
     spots: NDArray[np.float64] | None = None
     spot_colors: NDArray[np.uint8] | None = None
     is_points: bool = False
@@ -129,7 +135,23 @@ class Part:
         towards = across[:, 2] if is_parallel else -(across * a).sum(1)
         kept = (towards >= 0.0) == front
         edges = None if self.edges is None else self.edges[kept]
-        return replace(self, faces=self.faces[kept], edges=edges)
+        rgba = None if self.face_rgba is None else self.face_rgba[kept]
+        return replace(self, faces=self.faces[kept], edges=edges, face_rgba=rgba)
+
+    def with_own_corners(self) -> Part:
+        """Return the same with the colours of faces at vertices that they do not share."""
+        if self.face_rgba is None:
+            return self
+        corners = self.faces.reshape(-1)
+        rgba = np.repeat(self.face_rgba, 3, 0)
+        return replace(
+            self,
+            places=self.places[corners],
+            faces=np.arange(len(corners), dtype=np.int32).reshape(-1, 3),
+            normals=None if self.normals is None else self.normals[corners],
+            paint=Paint(rgba, is_clear=bool((self.face_rgba[:, 3] != 255).any())),
+            face_rgba=None,
+        )
 
     def added(self, scene: Scene, material: Material) -> Node:
         """Put the part into a scene."""
@@ -164,7 +186,7 @@ class Part:
     def has_colors(self) -> bool:
         """Whether points have colours of their own, instead of the look's."""
         has_paint = self.paint.is_color and not self.paint.is_plain
-        return has_paint or self.spot_colors is not None
+        return has_paint or self.spot_colors is not None or self.face_rgba is not None
 
 
 def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float32]:

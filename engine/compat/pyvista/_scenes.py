@@ -31,7 +31,8 @@ def scene_of(renderer: Any) -> Scene:
     """
     width, height = renderer.GetSize()
     view = view_of(renderer, (max(width, 1), max(height, 1)))
-    parts = [] if view is None else content_of(renderer, view).parts
+    found = [] if view is None else content_of(renderer, view).parts
+    parts = [part.with_own_corners() for part in found]
     if view is None or not parts:
         raise InvalidArgumentError("nothing in this plotter stands in space")
     scene = Scene(background=tuple(renderer.GetBackground()), ambient=(0, 0, 0))

@@ -1,4 +1,4 @@
-"""PyVista, drawn by engine3d: ``plotter.engine3d.screenshot("a.png")``, ``dataset.engine3d.render()``.
+"""PyVista, drawn by engine3d: ``plotter.engine3d.screenshot(file)``, ``dataset.engine3d.render()``.
 
 PyVista finds this module by the entry points of its groups ``pyvista.plotter_components`` and
 ``pyvista.accessors``, and imports it on first use. `install` takes the place of VTK's drawing, so

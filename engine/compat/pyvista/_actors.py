@@ -78,7 +78,6 @@ class _Shown:
         self._data, self._view, self._look = data, view, look
         points = vtk_to_numpy(data.GetPoints().GetData())
 
-
         self._places = transformed(matrix, points)
         self._paint, self._is_of_cells = paint_of(mapper, data)
         self._normals = self._normals_of(data, matrix)
@@ -146,7 +145,9 @@ class _Shown:
         normals = None if self._normals is None else self._normals[rows].reshape(-1, 2, 3)
         ends = self._places[rows].reshape(-1, 2, 3)
         paint = self._paint.taken(cells if self._is_of_cells else rows)
-        yield strokes(self._view, ends, paint, self._of_marks(is_wire or self._look.has_tubes), normals)
+        yield strokes(
+            self._view, ends, paint, self._of_marks(is_wire or self._look.has_tubes), normals
+        )
 
     def _of_dots(self, points: Segments) -> Iterator[Part]:
         if not len(points.ends):

@@ -104,7 +104,9 @@ class _Bar:
         self._draw_title()
 
     def _draw_colors(self) -> None:
-        count = min(self._actor.GetMaximumNumberOfColors(), self._table.GetNumberOfAvailableColors())
+        count = min(
+            self._actor.GetMaximumNumberOfColors(), self._table.GetNumberOfAvailableColors()
+        )
         colors = self._mapped(self._values(np.linspace(0.0, 1.0, max(count, 2))[:count]))
         if not self._actor.GetUseOpacity():
             colors[:, 3] = 255
@@ -194,10 +196,14 @@ class _Bar:
         for text, share in self._labels():
             along = self._bar.start + share * (self._bar.length - 1)
             if self._is_vertical:
-                look = with_size(self._label, self._label.GetFontSize(), justification=0, vertical=1)
+                look = with_size(
+                    self._label, self._label.GetFontSize(), justification=0, vertical=1
+                )
                 write(self._overlay, look, text, self._bar.side + self._thickness + 1, along)
             else:
-                look = with_size(self._label, self._label.GetFontSize(), justification=1, vertical=0)
+                look = with_size(
+                    self._label, self._label.GetFontSize(), justification=1, vertical=0
+                )
                 write(self._overlay, look, text, along, self._bar.side + self._thickness)
 
     def _draw_title(self) -> None:
@@ -207,7 +213,14 @@ class _Bar:
         left, bottom, width, height = self._frame
         high = text_size(self._overlay, self._label, "0")[1]
         if self._is_vertical:
-            y = bottom + height - text_size(self._overlay, self._title, title)[1] + _LOW + high // 2 - 1
+            y = (
+                bottom
+                + height
+                - text_size(self._overlay, self._title, title)[1]
+                + _LOW
+                + high // 2
+                - 1
+            )
         else:
             y = self._bar.side + self._thickness + high - _LOW
         look = with_size(self._title, self._title.GetFontSize(), justification=1, vertical=0)

@@ -121,8 +121,12 @@ class _Box:
     def lines(self) -> Iterator[Part]:
         for edge in self.edges():
             if self._of(edge.axis, "Get?AxisVisibility"):
-                yield self._strokes(self._along(edge, np.array([0.0, 1.0]))[None], edge.axis, "Axes")
-                if self._of(edge.axis, "Get?AxisTickVisibility") and not self._hides_ticks(edge.axis):
+                yield self._strokes(
+                    self._along(edge, np.array([0.0, 1.0]))[None], edge.axis, "Axes"
+                )
+                if self._of(edge.axis, "Get?AxisTickVisibility") and not self._hides_ticks(
+                    edge.axis
+                ):
                     yield self._strokes(self._ticks(edge), edge.axis, "Axes")
         for axis in range(3):
             if self._of(axis, "GetDraw?Gridlines"):

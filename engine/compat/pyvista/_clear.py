@@ -26,6 +26,7 @@ from ._view import View
 _FAINT = 2.0**-10
 _BLINN = 4.0  # times the power of Phong: highlights about as wide
 
+
 def mixture(
     solid: list[Part],
     clear: list[Part],

@@ -47,7 +47,9 @@ def paint_of(mapper: Any, data: Any) -> tuple[Paint, bool]:
     if image is None or uvs is None:
         return Paint(), False
     width, height, _ = image.GetDimensions()
-    texels = four_channels(vtk_to_numpy(image.GetPointData().GetScalars())).reshape(height, width, 4)
+    texels = four_channels(vtk_to_numpy(image.GetPointData().GetScalars())).reshape(
+        height, width, 4
+    )
     texture = Texture(texels[::-1], color_space="linear", filter="nearest", wrap="clamp")
     coordinates = vtk_to_numpy(uvs).astype(np.float32)
     return Paint(uvs=coordinates, image=texture, is_clear=_is_clear(texels)), False

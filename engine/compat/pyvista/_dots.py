@@ -125,9 +125,7 @@ def _half_ball(size: float, count: int) -> tuple[NDArray[np.float64], NDArray[np
     return _rings(radii, sides)
 
 
-def _rings(
-    radii: tuple[float, ...], sides: int
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def _rings(radii: tuple[float, ...], sides: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Return the middle and rings of a half ball that looks along +Z."""
     angles = [2.0 * math.pi * k / sides for k in range(sides)]
     places = [(0.0, 0.0, 1.0)]

@@ -101,9 +101,7 @@ def _arriving(lamp: Lamp, places: Floats) -> tuple[Floats, Floats]:
     distance = np.sqrt(_dot(away, away))
     to_light = away / np.maximum(distance, 1e-300)[:, None]
     constant, linear, square = lamp.fading
-    strength = 1.0 / np.maximum(
-        constant + linear * distance + square * distance * distance, 1e-300
-    )
+    strength = 1.0 / np.maximum(constant + linear * distance + square * distance * distance, 1e-300)
     if lamp.cone < 90.0:
         axis = -_dot(to_light, np.broadcast_to(lamp.direction, places.shape))
         inside = axis >= math.cos(math.radians(lamp.cone))

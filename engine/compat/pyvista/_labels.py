@@ -102,8 +102,9 @@ def _draw_shape(overlay: Overlay, mapper: Any, box: tuple[float, float, float, f
     for quarter, (x, y) in enumerate(((right, top), (left, top), (left, bottom), (right, bottom))):
         across, up = (1, 1) if quarter in (0, 2) else (-1, 1)
         arc = turns * (across, up) if quarter in (0, 1) else -turns * (across, up)
-        middle = x - radius * np.sign(x - 0.5 * (left + right)), y - radius * np.sign(
-            y - 0.5 * (bottom + top)
+        middle = (
+            x - radius * np.sign(x - 0.5 * (left + right)),
+            y - radius * np.sign(y - 0.5 * (bottom + top)),
         )
         arc = arc if quarter in (0, 2) else arc[::-1]
         corners.append(arc * radius + middle)

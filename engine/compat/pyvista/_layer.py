@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -119,9 +120,7 @@ class _Unfinished:
 class _Solid:
     """Parts that hide what is behind them."""
 
-    def __init__(
-        self, parts: list[Part], lamps: list[Lamp], view: View, points: Property
-    ) -> None:
+    def __init__(self, parts: list[Part], lamps: list[Lamp], view: View, points: Property) -> None:
         self._lamps, self._view, self._points = lamps, view, points
         self._scene = Scene(background=None, ambient=(0, 0, 0))
         self._unfinished: dict[int, _Unfinished] = {}

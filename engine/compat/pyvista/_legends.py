@@ -55,9 +55,7 @@ def draw_legend(overlay: Overlay, actor: Any) -> None:
         write(overlay, one, text, x + pad + _SYMBOLS * width - 2, middle - 1)
 
 
-def _fitting(
-    overlay: Overlay, look: Any, texts: list[str], width: float, height: float
-) -> int:
+def _fitting(overlay: Overlay, look: Any, texts: list[str], width: float, height: float) -> int:
     """Return the largest size at which each text fits; 0 if none does."""
     low, high = 0, _LARGEST
     while low < high:

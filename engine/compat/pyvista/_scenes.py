@@ -58,6 +58,8 @@ def _material(part: Part) -> Material:
     if look.is_physical:
         material.metallic, material.roughness = look.metallic, look.roughness
     elif look.specular:
-        material.specular = tuple(float(v) for v in np.clip(look.specular * look.specular_color, 0, 1))
+        material.specular = tuple(
+            float(v) for v in np.clip(look.specular * look.specular_color, 0, 1)
+        )
         material.shininess = 4.0 * look.power
     return material

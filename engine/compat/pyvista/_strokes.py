@@ -45,7 +45,9 @@ def strokes(
         ends, along, length, kept = ends[seen], along[seen], length[seen], kept[seen]
         paint = paint.taken(np.flatnonzero(np.repeat(seen, 2)))
     # Across the stroke, in view space, where y is up.
-    side = np.stack([along[:, 1], along[:, 0], 0.0 * length], -1) / np.maximum(length, 1e-300)[:, None]
+    side = (
+        np.stack([along[:, 1], along[:, 0], 0.0 * length], -1) / np.maximum(length, 1e-300)[:, None]
+    )
     half = 0.5 * look.line_width * view.pixel_sizes(ends.reshape(-1, 3)).reshape(-1, 2)
     columns = _COLUMNS if look.has_tubes else np.array([-1.0, 1.0])
     across = side[:, None, None] * (half[:, :, None] * columns)[..., None]

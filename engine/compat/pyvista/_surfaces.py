@@ -63,9 +63,7 @@ def triangles_of(data: Any, places: NDArray[np.float64]) -> Triangles:
     return Triangles(corners[cut.corners], cut.polygons + np.int32(first), cut.edge_visible)
 
 
-def _of_quads(
-    quads: NDArray[np.int32], places: NDArray[np.float64], first: int
-) -> Triangles:
+def _of_quads(quads: NDArray[np.int32], places: NDArray[np.float64], first: int) -> Triangles:
     """Return the triangles of quadrilaterals, cut along their first diagonal."""
     corners = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
     cells = np.repeat(np.arange(first, first + len(quads), dtype=np.int32), 2)

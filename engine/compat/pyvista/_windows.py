@@ -14,7 +14,6 @@ from vtkmodules import vtkRenderingOpenGL2
 from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
-
 VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 _CLASS = "vtkOSOpenGLRenderWindow"
 _Base: Any = getattr(vtkRenderingOpenGL2, _CLASS, vtkRenderWindow)

@@ -129,7 +129,9 @@ class PlotterComponent:
 
     def _prepare(self) -> None:
         if self._plotter.render_window is None:
-            raise InvalidArgumentError("this plotter is closed: draw it before its show() or close()")
+            raise InvalidArgumentError(
+                "this plotter is closed: draw it before its show() or close()"
+            )
         self._plotter._on_first_render_request()
 
     def _picture(

@@ -40,7 +40,10 @@ def draw(scene: Any, settings: Settings) -> NDArray[np.uint8]:
     width, height = settings.size
     camera = scene.camera
     projection = perspective(
-        math.radians(float(camera.fov[1])), width / height, float(camera.z_near), float(camera.z_far)
+        math.radians(float(camera.fov[1])),
+        width / height,
+        float(camera.z_near),
+        float(camera.z_far),
     )
     renderer = Renderer(settings.size, color_space="linear", samples=_SAMPLES, antialiasing="msaa")
     frame = renderer.render(
@@ -128,9 +131,7 @@ def _add(
     scene.add(mesh)
 
 
-def _edges(
-    places: NDArray[np.float64], faces: NDArray[np.int32], culls: bool
-) -> NDArray[np.int32]:
+def _edges(places: NDArray[np.float64], faces: NDArray[np.int32], culls: bool) -> NDArray[np.int32]:
     """Return the edges of faces, of those that face the camera if others are culled."""
     if culls:
         a, b, c = (places[faces[:, k]] for k in range(3))

@@ -7,18 +7,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import warn
-
 from ...model.geometry.creases import mesh_with_creases
 from ...model.geometry.mesh import Mesh
 from ...model.materials.textures import Texture
 
 _SMOOTHED = 60_000  # faces: so many and more stay flat
+_GRAPHS = ("scipy", "networkx")  # one of which trimesh smooths with
 _SHARP = math.radians(20.0)  # trimesh's angle
 
 
@@ -99,26 +100,44 @@ def _of_textured(mesh: Any, visual: Any) -> Shape:
 
 def _of_smooth(mesh: Any) -> Shape:
     """Return a mesh smoothed by trimesh, or, where that lacks a package, by its creases."""
-    try:
-        smooth = mesh.smooth_shaded
-    except ImportError:
-        positions = _three(mesh.vertices)
-        colors = _rgba(mesh.visual.vertex_colors, len(positions))
-        creased = Mesh(positions, np.asarray(mesh.faces, np.int32), colors=colors)
-        creased.crease_angle = _SHARP
-        split = mesh_with_creases(creased)
-        return Shape(
-            split.positions.astype(np.float64),
-            split.colors,
-            split.normals.astype(np.float64),
-            faces=split.faces,
-        )
+    if not any(find_spec(name) for name in _GRAPHS):
+        return _of_creases(mesh)
+    smooth = mesh.smooth_shaded
     return Shape(
         _three(smooth.vertices),
         _rgba(smooth.visual.vertex_colors, len(smooth.vertices)),
         np.asarray(smooth.vertex_normals, np.float64),
         faces=np.asarray(smooth.faces, np.int32),
     )
+
+
+def _of_creases(mesh: Any) -> Shape:
+    positions, faces = _three(mesh.vertices), np.asarray(mesh.faces, np.int32)
+    if mesh.visual.kind == "face":
+        colors = _mean_colors(_rgba(mesh.visual.face_colors, len(faces)), faces, len(positions))
+    else:
+        colors = _rgba(mesh.visual.vertex_colors, len(positions))
+    creased = Mesh(positions, faces, colors=colors)
+    creased.crease_angle = _SHARP
+    split = mesh_with_creases(creased)
+    return Shape(
+        split.positions.astype(np.float64),
+        split.colors,
+        split.normals.astype(np.float64),
+        faces=split.faces,
+    )
+
+
+def _mean_colors(
+    colors: NDArray[np.uint8], faces: NDArray[np.int32], count: int
+) -> NDArray[np.uint8]:
+    """Return the means of the colours of the faces round each vertex."""
+    corners = faces.reshape(-1)
+    many = np.maximum(np.bincount(corners, minlength=count), 1)
+    sums = [
+        np.bincount(corners, np.repeat(colors[:, k], 3).astype(np.float64), count) for k in range(4)
+    ]
+    return (np.stack(sums, 1) / many[:, None]).astype(np.uint8)
 
 
 def _of_path(path: Any) -> Shape | None:

@@ -3,13 +3,14 @@
 Where a breach is to stay, a comment says why.
 """
 
-# Keywords are what users write. Those of compat.pyrender are pyrender's own.
+# Keywords are what users write. Those of compat are pyrender's and trimesh's own.
 LONG_SIGNATURES = (
     "apps.batch.running.run",
     "apps.sheet.contact_sheet.contact_sheet",
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",
     "compat.pyrender.primitive.__init__",
+    "compat.trimesh.windowed.__init__",
     "model.geometry.mesh.__init__",
     "model.navigation.grid.__init__",
     "model.scene.lights.__init__",

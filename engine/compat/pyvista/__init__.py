@@ -8,7 +8,7 @@ that programs run unchanged. docs/pyvista.md tells what is drawn. Needs the extr
 from ._windows import prefer_no_opengl
 from .accessor import DatasetAccessor
 from .component import PlotterComponent
-from .installing import install, uninstall
+from .plotter_hooks import install, uninstall
 
 __all__ = ["DatasetAccessor", "PlotterComponent", "install", "uninstall"]
 

@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ...errors import warn
-from ._blocks import surfaces_of
-from ._colors import paint_of, texture_of
-from ._dots import dots
+from ._block_surfaces import surfaces_of
+from ._line_marks import strokes
 from ._parts import MANY, Paint, Part
+from ._point_marks import dots
 from ._properties import Property, property_of
-from ._strokes import strokes
+from ._renderer_view import View, matrix_of, product, transformed, turned
+from ._scalar_colors import paint_of, texture_of
 from ._surfaces import (
     Segments,
     dots_of,
@@ -29,7 +30,6 @@ from ._surfaces import (
     triangles_of,
     without_strips,
 )
-from ._view import View, matrix_of, product, transformed, turned
 
 _POINTS, _WIRES = 0, 1
 

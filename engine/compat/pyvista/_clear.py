@@ -1,8 +1,8 @@
 """Clear surfaces, mixed as VTK mixes them: without an order.
 
 In: the parts, and those that hide them. Out: colours and alphas. VTK shows the mean of each
-pixel's clear colours, weighted by alpha (vtkOrderIndependentTranslucentPass.cxx). The core blends in
-order; with alphas close to 0 the order does not matter, and blending is adding.
+pixel's clear colours, weighted by alpha (vtkOrderIndependentTranslucentPass.cxx). The core blends
+in order; with alphas close to 0 the order does not matter, and blending is adding.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from ...model.scene.scene import Scene
 from ...rendering.renderer import Renderer
 from ._edges import polygon_edges
 from ._lights import Lamp, add_lights
+from ._line_marks import strokes
 from ._parts import Paint, Part
-from ._strokes import strokes
-from ._view import View
+from ._renderer_view import View
 
 _FAINT = 2.0**-10
 _BLINN = 4.0  # times the power of Phong: highlights about as wide

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._parts import Part
-from ._view import View
+from ._renderer_view import View
 
 
 def facet_normals(

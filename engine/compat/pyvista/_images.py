@@ -13,10 +13,10 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from ...model.materials.textures import Texture
-from ._colors import four_channels
 from ._parts import Paint, Part
 from ._properties import PLAIN
-from ._view import View, matrix_of, product, transformed
+from ._renderer_view import View, matrix_of, product, transformed
+from ._scalar_colors import four_channels
 
 
 def image_parts(actor: Any, view: View) -> Iterator[Part]:

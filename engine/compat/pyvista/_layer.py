@@ -18,15 +18,15 @@ from ...rendering.frame import Frame
 from ...rendering.options import MAX_LINE
 from ...rendering.renderer import Renderer
 from ._clear import mixture
-from ._dots import spread_points
 from ._edges import edge_shares
 from ._facets import facet_normals
 from ._finish import shade
 from ._lights import Lamp, add_lights
 from ._parts import MANY, Part
+from ._point_marks import spread_points
 from ._properties import PLAIN, Property
+from ._renderer_view import View, product
 from ._samples import Samples
-from ._view import View, product
 
 _OF_LIGHT = {"object_id", "albedo", "world_normal", "world_position"}
 _OF_FACETS = {"object_id", "face_id", "albedo", "world_position"}

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...model.materials.linear_colors import linear
 from ...model.scene.lights import DirectionalLight, PointLight
 from ...model.scene.scene import Scene
-from ._view import View, transformed
+from ._renderer_view import View, transformed
 
 _FAR = 1e18  # the range of lights that do not fade
 

@@ -1,7 +1,7 @@
 """What a renderer of VTK holds, sorted by how it is drawn.
 
-In: a ``vtkRenderer`` and its view. Out: a `Content`: parts that stand in space, and what lies on the
-picture. What cannot be drawn is named.
+In: a ``vtkRenderer`` and its view. Out: a `Content`: parts that stand in space, and what lies on
+the picture. What cannot be drawn is named.
 """
 
 from __future__ import annotations
@@ -11,17 +11,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ._actors import parts_of
-from ._axes import arrows_of, draw_caption, draw_letters
-from ._bars import draw_bar
-from ._bounds import bounds_parts, draw_bounds_texts
-from ._flat import draw_flat
 from ._images import image_parts
-from ._labels import draw_billboard, draw_labels
-from ._legends import draw_legend
-from ._overlay import Overlay
 from ._parts import Part
-from ._texts import draw_corners, draw_text
-from ._view import View, matrix_of
+from ._renderer_view import View, matrix_of
+from .annotations.bars import draw_bar
+from .annotations.bounds import bounds_parts, draw_bounds_texts
+from .annotations.flat import draw_flat
+from .annotations.labels import draw_billboard, draw_labels
+from .annotations.legends import draw_legend
+from .annotations.little_axes import arrows_of, draw_caption, draw_letters
+from .annotations.overlay import Overlay
+from .annotations.texts import draw_corners, draw_text
 
 _Draw = Callable[[Overlay, Any], None]
 _Parts = Callable[[Any, View], Iterator[Part]]

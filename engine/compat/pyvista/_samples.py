@@ -2,7 +2,7 @@
 
 In: what renderers draw, each into its rectangle of all samples. Out: pixels. As in VTK, a pixel is
 the mean of its samples' light, for screens whose light is the 2.2th power of a code
-(vtkOpenGLRenderWindow.cxx), so that edges of dark things on white look thinner than in a plain mean.
+(vtkOpenGLRenderWindow.cxx): edges of dark things on white look thinner than in a plain mean.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The cells of a ``vtkPolyData``: triangles, segments and points, each with its cell.
 
-In: a ``vtkPolyData``. Out: arrays of indices of its points. Polygons become triangles as the loaders
-of files cut them.
+In: a ``vtkPolyData``. Out: arrays of indices of its points. Polygons become triangles as the
+loaders of files cut them.
 """
 
 from __future__ import annotations

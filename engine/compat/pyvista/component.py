@@ -1,7 +1,7 @@
 """What ``plotter.engine3d`` is.
 
-In: a plotter of PyVista, filled. Out: frames, files, arrays, windows. PyVista finds this by the entry
-point of its group ``pyvista.plotter_components`` and makes one for each plotter.
+In: a plotter of PyVista, filled. Out: frames, files, arrays, windows. PyVista finds this by the
+entry point of its group ``pyvista.plotter_components`` and makes one for each plotter.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from ...base.validation import flag, whole_number
 from ...errors import InvalidArgumentError
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
-from ._picture import Picture, is_smooth, picture_of
+from ._plotter_scenes import scene_of
 from ._saving import save_pixels
-from ._scenes import scene_of
+from ._window_pictures import Picture, is_smooth, picture_of
 
 _LARGEST_SCALE = 64
 

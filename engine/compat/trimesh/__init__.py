@@ -4,6 +4,6 @@
 takes over. Needs the extra ``trimesh``.
 """
 
-from .installing import install, uninstall
+from .viewer_hooks import install, uninstall
 
 __all__ = ["install", "uninstall"]

@@ -18,7 +18,7 @@ from ...base.files.atomic_write import atomic_write
 from ...base.numbers import shown
 from ...base.validation import choose
 from ...errors import InvalidArgumentError, warn
-from ._drawing import draw
+from ._scene_pictures import draw
 from ._settings import Settings
 
 __all__ = ["SceneViewer", "render_scene"]
@@ -102,19 +102,13 @@ class SceneViewer:
         if record:
             scene.metadata["recording"] = []
         self.reset_view(flags)
-        scene._redraw = self.on_draw
+        setattr(scene, "_redraw", self.on_draw)  # noqa: B010  its name in trimesh
         if start_loop:
             show(scene)
 
     def reset_view(self, flags: Mapping[str, Any] | None = None) -> None:
         """Set the flags to their defaults, or to those given; put the camera back."""
-        self.view = {
-            "cull": True,
-            "axis": False,
-            "grid": False,
-            "fullscreen": False,
-            "wireframe": False,
-        }
+        self.view: dict[str, Any] = dict.fromkeys(_FLAGS, False) | {"cull": True}
         for name, value in (flags or {}).items():
             choose(name, _FLAGS, "flags")
             if name == "axis" and value not in _AXES:

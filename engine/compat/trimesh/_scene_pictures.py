@@ -21,9 +21,9 @@ from ...model.scene.cameras import Camera
 from ...model.scene.scene import Scene
 from ...rendering.options import MAX_LINE
 from ...rendering.renderer import Renderer
-from ._lighting import Lamp, lamps_of, lit
 from ._settings import Settings
-from ._shapes import Shape, shape_of
+from ._vertex_light import Lamp, lamps_of, lit
+from ._viewer_shapes import Shape, shape_of
 
 _SAMPLES = 4
 _LEAST = 1.0  # pixels: OpenGL draws no thinner lines

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...rendering.canvas import Canvas
-from ._samples import Samples
-from ._view import View
+from ....rendering.canvas import Canvas
+from .._renderer_view import View
+from .._samples import Samples
 
 
 class Overlay:

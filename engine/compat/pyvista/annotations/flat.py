@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from ._overlay import Overlay
-from ._surfaces import segments_of, triangles_of, without_strips
+from .._surfaces import segments_of, triangles_of, without_strips
+from .overlay import Overlay
 
 
 def draw_flat(overlay: Overlay, actor: Any) -> None:

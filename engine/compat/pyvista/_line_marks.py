@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ._parts import Paint, Part
 from ._properties import Property
-from ._view import View
+from ._renderer_view import View
 
 _COLUMNS = np.array([-1.0, -0.92, -0.7, -0.38, 0.0, 0.38, 0.7, 0.92, 1.0])
 _STEEPEST = 0.5  # VTK draws no tube thicker than twice its width

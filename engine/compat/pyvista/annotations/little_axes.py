@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkPropCollection
 
-from ._overlay import Overlay
-from ._texts import text_size, with_size, write
+from .overlay import Overlay
+from .texts import text_size, with_size, write
 
 _SMALLEST = 6
 _LARGEST = 100

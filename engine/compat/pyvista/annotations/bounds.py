@@ -1,7 +1,7 @@
 """Boxes with numbered axes round a scene.
 
-In: a ``vtkCubeAxesActor``. Out: its axes, grids and ticks as strokes in space, its labels and titles
-along them on the picture.
+In: a ``vtkCubeAxesActor``. Out: its axes, grids and ticks as strokes in space, its labels and
+titles along them on the picture.
 """
 
 from __future__ import annotations
@@ -13,21 +13,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._bars import formatted
-from ._overlay import Overlay
-from ._parts import Paint, Part
-from ._properties import property_of
-from ._strokes import strokes
-from ._texts import with_size, write
-from ._view import View
+from .._line_marks import strokes
+from .._parts import Paint, Part
+from .._properties import property_of
+from .._renderer_view import View
+from .bars import formatted
+from .overlay import Overlay
+from .texts import with_size, write
 
 _NAMES = "XYZ"
 _CLOSEST, _FURTHEST, _STATIC_TRIAD, _STATIC_EDGES = 1, 2, 3, 4  # fly modes; 0: outer edges
 _ALL_GRIDS, _CLOSEST_GRIDS = 0, 1
 _INSIDE, _BOTH = 0, 2
 _TICK = 0.02  # of the box's diagonal
-# Pixels from an axis to the middles of its labels and of its title, outwards and towards its end, as
-# measured on VTK 9.7.
+# Pixels from an axis to the middles of its labels and of its title, outwards and towards its end,
+# as measured on VTK 9.7.
 _LABELS = 22.5, 2.0
 _TITLES = 54.0, 8.0
 _LARGER = 1.25  # VTK's labels in space than those of the same size on the picture

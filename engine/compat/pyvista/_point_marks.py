@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...base.linalg import cos, sin
 from ._parts import Paint, Part
 from ._properties import Property
-from ._view import View
+from ._renderer_view import View
 
 #: Sides and radii of the rings of half balls, by the largest size in pixels, and of how many.
 _BALLS = (

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from ...errors import InvalidArgumentError, warn
 from ._layer import depth_of, draw_layer
 from ._lights import lamps_of
-from ._overlay import Overlay
 from ._props import Content, content_of, draw_content, passes_of
+from ._renderer_view import View, view_of
 from ._samples import Samples
-from ._view import View, view_of
+from .annotations.overlay import Overlay
 
 _SAMPLES = 4  # of a pixel, whatever kind of antialiasing is asked for
 _LARGEST = 16384

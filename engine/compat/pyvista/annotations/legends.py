@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from ._overlay import Overlay
-from ._surfaces import segments_of, triangles_of, without_strips
-from ._texts import text_size, with_size, write
+from .._surfaces import segments_of, triangles_of, without_strips
+from .overlay import Overlay
+from .texts import text_size, with_size, write
 
 _SYMBOLS = 0.25  # of the width
 _SYMBOL = 0.42  # of the smaller side of its place

@@ -171,7 +171,7 @@ def _three(vertices: Any) -> NDArray[np.float64]:
 
 
 def _rgba(colors: Any, count: int) -> NDArray[np.uint8]:
-    """Return colours as (count, 4) uint8; black where there are none, as trimesh's viewer has it."""
+    """Return colours as (count, 4) uint8; black where there are none, as in trimesh's viewer."""
     out = np.zeros((count, 4), np.uint8)
     out[:, 3] = 255
     if colors is None:

@@ -18,7 +18,7 @@ from ...model.scene.scene import Scene
 from ._lights import add_lights, lamps_of
 from ._parts import Part
 from ._props import content_of
-from ._view import view_of
+from ._renderer_view import view_of
 
 
 def scene_of(renderer: Any) -> Scene:

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from ...errors import warn
-from ._overlay import Overlay
-from ._texts import text_size, with_size, write
+from ....errors import warn
+from .overlay import Overlay
+from .texts import text_size, with_size, write
 
 _VERTICAL = 1
 _PAD = 4  # pixels between the colours and the end of the frame

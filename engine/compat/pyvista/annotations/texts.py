@@ -14,7 +14,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkRenderingCore import vtkTextProperty, vtkTextRenderer
 
-from ._overlay import Overlay
+from .overlay import Overlay
 
 _DPI = 72
 _LEFT, _CENTERED = 0, 1  # justifications; else right

@@ -15,7 +15,7 @@ from pyvista.plotting import plotter, render_window_interactor
 
 from ...errors import DisplayError, warn
 from . import _windows
-from ._picture import is_smooth, picture_of
+from ._window_pictures import is_smooth, picture_of
 from ._windows import Window
 
 #: What was replaced: objects, names, and what they had.

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from ._overlay import Overlay
-from ._texts import text_size, with_size, write
+from .overlay import Overlay
+from .texts import text_size, with_size, write
 
 _NONE, _ROUND = 0, 2  # shapes
 _OUTLINE = 1  # style

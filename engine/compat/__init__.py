@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-__all__ = ["matplotlib", "mujoco", "pyrender", "pyvista"]
+__all__ = ["matplotlib", "mujoco", "pyrender", "pyvista", "trimesh"]
 
 
 def __getattr__(name):

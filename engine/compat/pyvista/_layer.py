@@ -75,21 +75,25 @@ def _with_one_size(parts: list[Part], view: View) -> tuple[list[Part], Property]
     return [part if fits(part) else _spread(part, view) for part in parts], most.look
 
 
-def depth_of(parts: list[Part], view: View) -> NDArray[np.float32]:
-    """Return distances along the view axis in the middles of pixels, (H, W); 0 where nothing is."""
+def depth_of(parts: list[Part], view: View, place: tuple[float, float]) -> NDArray[np.float32]:
+    """Return distances along the view axis, (H, W); 0 where nothing is.
+
+    ``place`` is where in a pixel they are found. VTK takes the first sample's, of what is not
+    clear.
+    """
     scene = Scene(background=None)
-    alike, points = _with_one_size([part for part in parts if not part.is_empty], view)
+    solid = [part for part in parts if not part.is_empty and not part.is_clear]
+    alike, points = _with_one_size(solid, view)
     for part in alike:
-        part.added(scene, part.material(opacity=1.0))
+        part.added(scene, part.material())
     renderer = Renderer((view.width, view.height), color_space="linear")
-    camera = Camera(view.projection), np.eye(4)
+    camera = Camera(_moved(view, 0.5 - place[0], 0.5 - place[1])), np.eye(4)
     return renderer.render(
         scene,
         camera,
         mode="unlit",
         outputs=("depth",),
         cull="none",
-        transparent_outputs=True,
         **_point_options(points),
     ).depth
 

@@ -112,7 +112,7 @@ def _draw(
     )
     found = None
     if depth is not None or content.labels:
-        found = depth_of(content.parts, view)
+        found = depth_of(content.parts, view, samples.pattern[0])
     if depth is not None and found is not None:
         there = depth[view.top : view.top + view.height, view.left : view.left + view.width]
         np.copyto(there, found, where=found > 0.0)

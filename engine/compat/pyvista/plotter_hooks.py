@@ -74,7 +74,7 @@ def _depth_of(original: Any) -> Any:
         if not isinstance(window, Window):
             return original(image_filter)
         scale = image_filter.GetScale()[0]
-        found = picture_of(window, scale, is_smooth=False, wants_depth=True)
+        found = picture_of(window, scale, is_smooth=is_smooth(window), wants_depth=True)
         return _codes(window, found.depth)[..., None]
 
     return run_image_filter

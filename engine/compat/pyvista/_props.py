@@ -66,6 +66,8 @@ _FLAT: dict[str, _Draw] = {
 #: Mappers of `vtkActor2D`.
 _FLAT_MAPPERS: dict[str, _Draw] = {"vtkPolyDataMapper2D": draw_flat}
 _LABELS = "vtkLabelPlacementMapper"
+#: Show nothing without a mapper, instead of something of their own.
+_BARE = ("vtkActor2D", "vtkTexturedActor2D")
 #: Antialiasing: four samples a pixel stand for all kinds.
 _DRAWN_PASSES = ("vtkSSAAPass", "vtkOpenGLFXAAPass")
 #: What VTK draws and engine3d does not, by class.
@@ -133,6 +135,8 @@ def _sort_in(found: Content, prop: Any, view: View) -> None:
     if flat is None and solid is None and hasattr(prop, "GetMapper"):
         mapper = prop.GetMapper()
         if mapper is None:
+            if prop.GetClassName() not in _BARE:
+                found.undrawn.append(prop.GetClassName())
             return
         if mapper.IsA(_LABELS):
             found.labels.append(prop)

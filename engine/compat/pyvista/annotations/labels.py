@@ -1,7 +1,7 @@
 """Labels at points, and texts that stand somewhere in space.
 
 In: a ``vtkActor2D`` whose mapper places labels, or an actor of a text. Out: texts on the picture,
-nearest first, where they do not cover one another.
+in their order, where they do not cover one another.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def draw_labels(overlay: Overlay, actor: Any, hidden: Any) -> None:
     look = hierarchy.GetTextProperty()
     taken: list[tuple[float, float, float, float]] = []
     pixels = overlay.view.pixels(places)
-    for k in np.argsort(-places[:, 2], kind="stable"):
+    for k in range(len(places)):
         if pixels[k, 2] <= 0.0 or not shown[k] or not texts[k]:
             continue
         _draw_label(overlay, mapper, look, texts[k], pixels[k], taken)

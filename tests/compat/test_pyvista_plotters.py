@@ -141,6 +141,20 @@ def test_the_same_bytes_with_every_backend_and_threads(monkeypatch):
             assert np.array_equal(pl.engine3d.screenshot(), expected), (backend, threads)
 
 
+def test_drawing_leaves_the_plotter_as_it_was():
+    pl = plotter()
+    pl.add_mesh(pv.Sphere(radius=0.1))
+    pl.engine3d.screenshot()
+    assert pl._first_time
+    assert not pl.renderer.camera.is_set
+    pl.add_mesh(pv.Sphere(center=(5, 0, 0)), color="red")
+    both = pl.engine3d.screenshot()
+    fresh = plotter()
+    fresh.add_mesh(pv.Sphere(radius=0.1))
+    fresh.add_mesh(pv.Sphere(center=(5, 0, 0)), color="red")
+    assert np.array_equal(both, fresh.engine3d.screenshot())
+
+
 @pytest.mark.parametrize("scale", [1, 2, 3])
 def test_sizes(scale):
     pl = plotter()

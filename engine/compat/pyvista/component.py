@@ -132,7 +132,16 @@ class PlotterComponent:
             raise InvalidArgumentError(
                 "this plotter is closed: draw it before its show() or close()"
             )
-        self._plotter._on_first_render_request()
+        plotter = self._plotter
+        if not plotter._first_time:
+            return
+        # PyVista itself has drawn nothing yet, and must find its plotter so.
+        cameras = [renderer.camera for renderer in plotter.renderers]
+        were_set = [camera.is_set for camera in cameras]
+        plotter._on_first_render_request()
+        plotter._first_time = True
+        for camera, was_set in zip(cameras, were_set, strict=True):
+            camera.is_set = was_set
 
     def _picture(
         self,

@@ -16,6 +16,7 @@ LONG_SIGNATURES = (
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",
     "compat.pyrender.primitive.__init__",
+    "compat.trimesh.windowed.__init__",
     "model.geometry.mesh.__init__",
     "model.navigation.grid.__init__",
     "model.scene.lights.__init__",

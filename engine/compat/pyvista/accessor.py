@@ -10,13 +10,13 @@ from typing import Any
 
 import pyvista
 
-from ..apps.viewer.show import show
-from ..errors import InvalidArgumentError
-from ..io.scenes.other_libraries import scene_of_library
-from ..io.scenes.upright_loading import stand_upright
-from ..model.scene.scene import Scene
-from ..rendering.frame import Frame
-from ..stage.render import render
+from ...apps.viewer.show import show
+from ...errors import InvalidArgumentError
+from ...io.scenes.other_libraries import scene_of_library
+from ...io.scenes.upright_loading import stand_upright
+from ...model.scene.scene import Scene
+from ...rendering.frame import Frame
+from ...stage.render import render
 
 __all__ = ["DatasetAccessor"]
 

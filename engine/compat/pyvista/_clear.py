@@ -1,0 +1,146 @@
+"""Clear surfaces, mixed as VTK mixes them: without an order.
+
+In: the parts, and those that hide them. Out: colours and alphas. VTK shows the mean of each
+pixel's clear colours, weighted by alpha (vtkOrderIndependentTranslucentPass.cxx). The core blends
+in order; with alphas close to 0 the order does not matter, and blending is adding.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...model.materials.linear_colors import linear
+from ...model.materials.textures import Texture
+from ...model.scene.cameras import Camera
+from ...model.scene.scene import Scene
+from ...rendering.renderer import Renderer
+from ._edges import polygon_edges
+from ._lights import Lamp, add_lights
+from ._line_marks import strokes
+from ._parts import Paint, Part
+from ._renderer_view import View
+
+_FAINT = 2.0**-10
+_BLINN = 4.0  # times the power of Phong: highlights about as wide
+
+
+def mixture(
+    solid: list[Part],
+    clear: list[Part],
+    lamps: list[Lamp],
+    view: View,
+    peels: bool,
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return what clear parts show before solid ones.
+
+    Returns
+    -------
+    color : (H, W, 3) float32
+        0 to 1, times the alpha.
+    cover : (H, W, 1) float32
+        Alpha.
+    """
+    clear = [each for part in clear for each in _with_edges(part, view)]
+    draw = _Passes(solid, clear, lamps, view)
+    cover = draw.radiance(is_white=True)[..., :1]
+    if peels:
+        return np.minimum(draw.radiance(), cover), cover
+    weight = draw.radiance(is_white=True, is_faint=True)[..., :1]
+    color = draw.radiance(is_faint=True) / np.maximum(weight, np.float32(1e-30))
+    return np.clip(color, 0.0, 1.0) * cover, cover
+
+
+def _with_edges(part: Part, view: View) -> list[Part]:
+    """Return a part, and its edges as lines."""
+    look = part.look
+    if not look.edge_width:
+        return [part]
+    ends = polygon_edges(part)
+    lines = replace(
+        look,
+        color=look.edge_color,
+        line_width=look.edge_width,
+        opacity=look.opacity * look.edge_opacity,
+        is_unlit=True,
+        ambient=0.0,
+        diffuse=1.0,
+        edge_width=0.0,
+        has_tubes=False,
+    )
+    return [part, strokes(view, part.places[ends], Paint(), lines, None)]
+
+
+class _Passes:
+    """Draws clear parts behind black ones, in several ways."""
+
+    def __init__(
+        self,
+        solid: list[Part],
+        clear: list[Part],
+        lamps: list[Lamp],
+        view: View,
+    ) -> None:
+        self._solid, self._clear, self._lamps = solid, clear, lamps
+        self._renderer = Renderer((view.width, view.height), color_space="linear")
+        self._camera = Camera(view.projection), np.eye(4)
+
+    def radiance(self, is_white: bool = False, is_faint: bool = False) -> NDArray[np.float32]:
+        """Return the sum of the clear parts' colours.
+
+        Parameters
+        ----------
+        is_white : bool
+            Draw them white instead.
+        is_faint : bool
+            With alphas close to 0.
+        """
+        scene = Scene(background=(0, 0, 0), ambient=(0, 0, 0))
+        add_lights(scene, self._lamps)
+        for part in self._solid:
+            black = replace(part, paint=Paint(), spot_colors=None)
+            material = black.material(0.0)
+            material.unlit = True
+            black.added(scene, material)
+        for part in self._clear:
+            self._add(scene, part, is_white, is_faint)
+        frame = self._renderer.render(scene, self._camera, outputs=("radiance",), cull="none")
+        return frame.radiance
+
+    def _add(
+        self,
+        scene: Scene,
+        part: Part,
+        is_white: bool,
+        is_faint: bool,
+    ) -> None:
+        look = part.look
+        factor = look.ambient + look.diffuse if look.is_unlit else look.diffuse
+        opacity = look.opacity * (_FAINT if is_faint else 1.0)
+        material = part.material(1.0 if is_white else factor, opacity)
+        if is_white:
+            material.unlit = True
+            material.color = linear([1.0, 1.0, 1.0, opacity])
+            part = replace(part, paint=_white(part.paint), spot_colors=None)
+            material.texture = part.paint.image
+        elif look.specular and not look.is_unlit:
+            material.specular = linear(look.specular_color * look.specular)
+            material.shininess = _BLINN * look.power
+        if not is_white and look.ambient and not look.is_unlit:
+            material.emissive = linear(np.clip(look.ambient * look.ambient_color, 0.0, 1.0))
+        part.added(scene, material)
+
+
+def _white(paint: Paint) -> Paint:
+    """Return white colours with the same alphas."""
+    rgba, image = paint.rgba, paint.image
+    if rgba is not None:
+        rgba = rgba.copy()
+        rgba[:, :3] = 255
+    if image is not None:
+        pixels = image.pixels.copy()
+        pixels[..., :3] = 255
+        image = Texture(pixels, color_space="linear", filter=image.filter, wrap=image.wrap)
+    return replace(paint, rgba=rgba, image=image)

@@ -1,0 +1,1 @@
+"""What lies on pictures of plotters: texts, bars, legends, numbered axes."""

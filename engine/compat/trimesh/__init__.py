@@ -1,0 +1,9 @@
+"""trimesh's viewer without pyglet and OpenGL: ``scene.save_image()`` on a bare server.
+
+`install` puts a module in the place of ``trimesh.viewer.windowed``. docs/trimesh.md tells what it
+takes over. Needs the extra ``trimesh``.
+"""
+
+from .viewer_hooks import install, uninstall
+
+__all__ = ["install", "uninstall"]

@@ -1,0 +1,105 @@
+"""`install` in the place of VTK's drawing, and the entry point, in a process without OpenGL."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from compat.plotters import SIZE, plotter, without_opengl
+
+import engine3d as e3d
+
+pv = pytest.importorskip("pyvista", exc_type=ImportError)
+if not hasattr(pv, "register_plotter_component"):
+    pytest.skip("components of plotters came with PyVista 0.48", allow_module_level=True)
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def installed():
+    without_opengl()
+    from engine3d.compat import pyvista as door
+
+    door.install()
+    yield door
+    door.uninstall()
+
+
+def test_show_and_screenshot(installed, tmp_path):
+    pl = plotter()
+    pl.add_mesh(pv.Cube(), color="red")
+    expected = pl.engine3d.screenshot()
+    camera, pixels = pl.show(
+        screenshot=tmp_path / "a.png", return_img=True, return_cpos=True, auto_close=False
+    )
+    assert (tmp_path / "a.png").stat().st_size > 100
+    assert np.array_equal(pixels, expected)
+    assert np.allclose(camera.focal_point, 0.0)
+    assert pl.screenshot(None, transparent_background=True).shape == (SIZE[1], SIZE[0], 4)
+    assert pl.screenshot(None, scale=2).shape == (2 * SIZE[1], 2 * SIZE[0], 3)
+    assert np.array_equal(pl.image[..., :3], expected)
+    pl.close()
+    options = {"window_size": SIZE, "return_img": True, "show_axes": False}
+    picture = pv.Cube().plot(off_screen=True, color="red", **options)
+    assert np.array_equal(picture, expected)
+
+
+@pytest.mark.parametrize("is_parallel", [False, True])
+def test_depths_are_negative_distances(installed, is_parallel):
+    pl = plotter()
+    pl.add_mesh(pv.Plane(i_size=4, j_size=4))
+    pl.camera_position = [(0, 0, 3), (0, 0, 0), (0, 1, 0)]
+    if is_parallel:
+        pl.enable_parallel_projection()
+    pl.show(auto_close=False)
+    depth = pl.get_image_depth()
+    assert np.allclose(depth[np.isfinite(depth)], -3.0, rtol=1e-3)
+    assert np.isfinite(depth).any()
+
+
+def test_a_window_without_a_display_is_told(installed, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    pl = plotter(off_screen=False)
+    pl.add_mesh(pv.Cube())
+    with pytest.warns(e3d.errors.Engine3DWarning, match="not shown"):
+        pl.show()
+
+
+def test_uninstall_puts_back_what_was_there():
+    from pyvista.plotting import plotter as module
+
+    from engine3d.compat import pyvista as door
+
+    before = module.image_from_window, module.run_image_filter
+    door.install()
+    door.install()
+    assert module.image_from_window is not before[0]
+    door.uninstall()
+    door.uninstall()
+    assert (module.image_from_window, module.run_image_filter) == before
+
+
+def test_pyvista_finds_the_component_and_loads_no_opengl(tmp_path):
+    """By the line of pyproject.toml, in metadata as pip writes it."""
+    line = 'engine3d = "engine3d.compat.pyvista"'
+    group = '[project.entry-points."pyvista.plotter_components"]'
+    assert f"{group}\n{line}\n" in (ROOT / "pyproject.toml").read_text("utf-8")
+    metadata = tmp_path / "component-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: component\nVersion: 1.0\n")
+    points = f"[pyvista.plotter_components]\n{line}\n".replace('"', "")
+    (metadata / "entry_points.txt").write_text(points)
+    code = (
+        f"import os, sys; sys.path.insert(0, {str(tmp_path)!r})\n"
+        "os.environ['VTK_DEFAULT_OPENGL_WINDOW'] = 'vtkOSOpenGLRenderWindow'\n"
+        "import pyvista as pv\n"
+        "pl = pv.Plotter(off_screen=True, window_size=(40, 30)); pl.add_mesh(pv.Sphere())\n"
+        "print(pl.engine3d.screenshot().shape)\n"
+        "maps = open('/proc/self/maps').read() if sys.platform == 'linux' else ''\n"
+        "print('libEGL' in maps or 'libGLX' in maps)\n"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout == "(30, 40, 3)\nFalse\n"

@@ -20,7 +20,7 @@ FOLDERS = {
     "check/fuzz": {"check/driver", "include", "io/images", "io/loaders"},
     "data": {"base", "include"},
     "extras/canvas": {"include"},
-    "extras/mujoco": {"base", "include"},
+    "extras/mujoco": {"base", "include", "kernels"},
     "extras/pyrender": {"base", "data", "include"},
     "frame/cast": {"base", "data", "frame/pass", "include", "kernels"},
     "frame/cull": {"base", "data", "frame/pass", "include", "kernels"},

@@ -139,9 +139,17 @@ static void resolve_alike(const muj_picture *picture, const muj_fragments *fragm
         write_pixel(picture, (size_t)(run->pixel + k), codes[k]);
 }
 
+static int is_black(const uint32_t *codes, int32_t count)
+{
+    uint32_t any = 0;
+    for (int32_t i = 0; i < count; i++)
+        any |= codes[i];
+    return !any;
+}
+
 static void resolve_run(const muj_picture *picture, const muj_fragments *fragments, const muj_run *run, const uint32_t *mirrored)
 {
-    if (!mirrored) {
+    if (!mirrored || is_black(mirrored, run->count * picture->samples)) {
         resolve_alike(picture, fragments, run);
         return;
     }

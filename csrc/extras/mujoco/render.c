@@ -235,14 +235,18 @@ static int draw_band(const e3d_muj_memory *memory, muj_hand *hand, int32_t band,
     muj_target target = target_of(memory, hand, band);
     muj_codes codes = {hand->codes.data, hand->stencil.data, hand->covers.data, &hand->fragments, &hand->ranges};
     size_t pixels = (size_t)(target.end - target.top) * (size_t)picture->frame->width;
-    int32_t blended;
-    int is_mirroring = picture->has_mirror && set_stencil(&target, fragments, codes.stencil);
+    int32_t blended, mirrored[2] = {0};
+    if (picture->has_mirror) {
+        muj_band_items(&memory->mirrored, band, &mirrored[0]);
+        muj_band_items(&memory->mirrored_blended, band, &mirrored[1]);
+    }
+    int is_mirroring = (mirrored[0] || mirrored[1]) && set_stencil(&target, fragments, codes.stencil);
     muj_band_items(&memory->blended, band, &blended);
     if (is_mirroring || blended)
         memset(codes.of, 0, pixels * (size_t)picture->samples * sizeof *codes.of);
     if (is_mirroring) {
-        muj_target mirrored = {picture, target.top, target.end, hand->mirrored_depth.data, hand->mirrored_shown.data};
-        if (!muj_draw_mirrored(&mirrored, &memory->mirrored, &memory->mirrored_blended, band, &hand->mirror_shader,
+        muj_target behind = {picture, target.top, target.end, hand->mirrored_depth.data, hand->mirrored_shown.data};
+        if (!muj_draw_mirrored(&behind, &memory->mirrored, &memory->mirrored_blended, band, &hand->mirror_shader,
                                &hand->mirror_blend_shader, &codes))
             return 0;
     }

@@ -122,14 +122,21 @@ def static_libraries():
             "csrc/scene/posing/*.c",
             "csrc/post/*.c",
         ],
-        "e3d_portable": ["csrc/kernels/isa_portable.c"],
+        "e3d_portable": [
+            "csrc/kernels/isa_portable.c",
+            "csrc/extras/mujoco/kernels/isa_portable.c",
+        ],
         "e3d_reference": ["csrc/reference/**/*.c"],
         "e3d_canvas": ["csrc/extras/canvas/*.c"],
         "e3d_drawing": ["csrc/extras/drawing/*.c"],
         "e3d_environment": ["csrc/light/*.c"],
         "e3d_images": ["csrc/io/images/*.c"],
         "e3d_navigation": ["csrc/scene/navigation/*.c"],
-        "e3d_mujoco": ["csrc/extras/mujoco/*.c"],
+        "e3d_mujoco": [
+            "csrc/extras/mujoco/*.c",
+            "csrc/extras/mujoco/kernels/dispatch.c",
+            "csrc/extras/mujoco/kernels/scalar.c",
+        ],
         "e3d_pybullet": ["csrc/extras/pybullet/*.c"],
         "e3d_pyrender": ["csrc/extras/pyrender/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],
@@ -138,7 +145,8 @@ def static_libraries():
     }
     kernel_flags = {"e3d_portable": []}
     for isa, flags in isa_flags(MACHINE).items():
-        sources[f"e3d_{isa}"] = [f"csrc/kernels/isa_{isa}.c"]
+        folders = ("csrc/kernels", "csrc/extras/mujoco/kernels")
+        sources[f"e3d_{isa}"] = [f"{folder}/isa_{isa}.c" for folder in folders]
         kernel_flags[f"e3d_{isa}"] = flags
     libraries = []
     for name, patterns in sources.items():

@@ -1,11 +1,12 @@
 /* Pictures as MuJoCo's classic renderer draws them (docs/exactness, section 29).
  * In: the geoms, lights and camera of a scene, and the shapes and textures of its model.
  * Out: colours, or which geom shows and its depth.
- * Always: the same bytes for any number of threads, since no pixel depends on what is written for another. */
+ * Always: the same bytes for any backend and number of threads, since no pixel depends on what is written for another. */
 #pragma once
 
 #include <stdint.h>
 
+#include "e3d_backends.h"
 #include "e3d_status.h"
 
 #ifdef __cplusplus
@@ -95,6 +96,7 @@ typedef struct e3d_muj_light {
 } e3d_muj_light;
 
 typedef struct e3d_muj_frame {
+    e3d_backend backend;                   /* one that is available */
     int32_t width, height, samples;
     int32_t is_segmented;                  /* draws all geoms with a segid, each alike, at the centres of the pixels */
     int32_t is_wireframe, culls_backs, reflects, shadows, is_additive, has_fog;
@@ -122,6 +124,11 @@ typedef struct e3d_muj_frame {
     float *depth;                          /* if is_segmented: (height, width), 1 at the near plane, 0 at the far plane or where
                                               nothing is; or NULL */
 } e3d_muj_frame;
+
+/* Finds the next level of a texture, (faces, max(1, height / 2), max(1, width / 2), 4). meaning: the values of the codes of the
+ * first three channels; limits: the values halfway between them. */
+void e3d_muj_halve(const uint8_t *texels, int32_t faces, int32_t height, int32_t width, const double meaning[256], const double limits[255],
+                   uint8_t *to);
 
 /* Memory that pictures use again. e3d_muj_memory_new returns NULL when memory is out. */
 typedef struct e3d_muj_memory e3d_muj_memory;

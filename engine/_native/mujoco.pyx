@@ -10,7 +10,7 @@ from libc.stdint cimport int32_t, uint8_t
 from libc.stdlib cimport calloc, free
 from libc.string cimport memset
 
-from e3d cimport E3D_OK, E3D_OUT_OF_MEMORY, e3d_status
+from e3d cimport E3D_OK, E3D_OUT_OF_MEMORY, e3d_backend, e3d_status
 from e3d_mujoco cimport *
 
 import numpy as np
@@ -43,6 +43,20 @@ cdef int require(bint condition, str message) except -1:
 
 
 require(GEOM.itemsize == sizeof(e3d_muj_geom) and LIGHT.itemsize == sizeof(e3d_muj_light), "the records differ from the core's")
+
+
+def halve(const uint8_t[:, :, :, ::1] texels not None, const double[::1] meaning not None, const double[::1] limits not None,
+          uint8_t[:, :, :, ::1] out not None):
+    """Write the next level of a texture, (faces, H, W, 4), to `out`, (faces, max(1, H // 2), max(1, W // 2), 4).
+
+    `meaning`, (256,): what the codes of the first three channels mean; `limits`, (255,): the values halfway between.
+    """
+    cdef int32_t faces = <int32_t>texels.shape[0], height = <int32_t>texels.shape[1], width = <int32_t>texels.shape[2]
+    require(meaning.shape[0] == 256 and limits.shape[0] == 255, "a meaning for each code")
+    require(faces > 0 and height > 0 and width > 0 and texels.shape[3] == 4 and out.shape[3] == 4, "texels have four channels")
+    require(out.shape[0] == faces and out.shape[1] == max(height // 2, 1) and out.shape[2] == max(width // 2, 1), "a level has the wrong size")
+    with nogil:
+        e3d_muj_halve(&texels[0, 0, 0, 0], faces, height, width, &meaning[0], &limits[0], &out[0, 0, 0, 0])
 
 
 cdef class NativeModel:
@@ -153,11 +167,14 @@ cdef class NativeModel:
 
 
 cdef class NativePicture:
-    """Memory for pictures, one after the other."""
+    """Memory for pictures, one after the other, and what draws them: a backend of the core, up to `threads` threads (0: all)."""
 
     cdef e3d_muj_memory *memory
+    cdef e3d_backend backend
+    cdef int threads
 
-    def __cinit__(self):
+    def __cinit__(self, int backend, int threads):
+        self.backend, self.threads = <e3d_backend>backend, threads
         self.memory = e3d_muj_memory_new()
         if self.memory == NULL:
             raise OutOfMemoryError("no memory for pictures")
@@ -166,7 +183,7 @@ cdef class NativePicture:
         e3d_muj_memory_free(self.memory)
 
     def render(self, NativeModel model not None, geoms not None, lights not None, const double[::1] camera not None,
-               bint is_orthographic, int samples, float ambient, flags not None, int threads,
+               bint is_orthographic, int samples, float ambient, flags not None,
                uint8_t[:, :, ::1] color, int32_t[:, ::1] geom=None, float[:, ::1] depth=None):
         """Draw into the arrays.
 
@@ -193,6 +210,7 @@ cdef class NativePicture:
         frame.is_orthographic, frame.samples, frame.ambient = is_orthographic, samples, ambient
         (frame.is_wireframe, frame.culls_backs, frame.reflects, frame.shadows, frame.is_additive, frame.has_fog, frame.has_haze,
          has_sky) = flags
+        frame.backend = self.backend
         if not has_sky:
             frame.sky = -1
         if color is not None:
@@ -208,7 +226,7 @@ cdef class NativePicture:
                 require(geom is None or (depth.shape[0] == frame.height and depth.shape[1] == frame.width), "arrays of one size")
                 frame.height, frame.width, frame.depth = <int32_t>depth.shape[0], <int32_t>depth.shape[1], &depth[0, 0]
         with nogil:
-            status = e3d_muj_render(&frame, threads, self.memory)
+            status = e3d_muj_render(&frame, self.threads, self.memory)
         if status == E3D_OUT_OF_MEMORY:
             raise OutOfMemoryError("no memory for the picture")
         if status != E3D_OK:

@@ -275,6 +275,42 @@ def test_buffers_are_read_from_below(model, data):
             compat.mjr_render(mujoco.MjrRect(0, 0, 9999, 10), scene, context)
 
 
+def test_functions_say_what_they_take(model, data):
+    renderer, context = compat.Renderer(model, 8, 8), compat.MjrContext(model)
+    view, scene = mujoco.MjrRect(0, 0, 8, 8), renderer.scene
+    words = np.array(["a"] * 192)
+    for call, match in (
+        (lambda: compat.mjr_render(None, scene, context), "viewport must be a mujoco.MjrRect"),
+        (lambda: compat.mjr_render(view, None, context), "scn must be a mujoco.MjvScene"),
+        (lambda: compat.mjr_render(view, scene, None), "con must be an MjrContext"),
+        (lambda: compat.mjr_readPixels(None, None, None, context), "viewport must be"),
+        (lambda: compat.mjr_readPixels(None, None, view, None), "con must be"),
+        (lambda: compat.mjr_readPixels(words, None, view, context), "rgb must hold numbers"),
+        (lambda: compat.mjr_drawPixels([1], None, view, context), "rgb must be an array"),
+        (lambda: compat.mjr_drawPixels(words, None, view, context), "rgb must hold numbers"),
+        (lambda: compat.mjr_setBuffer(None, context), "framebuffer must be"),
+        (lambda: compat.mjr_setBuffer(1, None), "con must be"),
+        (lambda: compat.mjr_resizeOffscreen(1, 1, None), "con must be"),
+        (lambda: compat.mjr_maxViewport(None), "con must be"),
+        (lambda: compat.mjr_uploadMesh(None, context, 0), "model must be"),
+        (lambda: compat.mjr_uploadMesh(model, None, 0), "con must be"),
+        (lambda: compat.MjrContext(model, None), "fontscale must be"),
+        (lambda: compat.Renderer(model, 8, 8, font_scale=None), "font_scale must be"),
+        (lambda: compat.Renderer(model, 8, 8, font_scale="big"), "font_scale must be"),
+        (lambda: renderer.update_scene(None), "data must be a mujoco.MjData"),
+        (lambda: renderer.update_scene(data, scene_option=3), "scene_option must be"),
+        (lambda: renderer.render(out=np.zeros((8, 8, 3), object)), "out must hold numbers"),
+    ):
+        with pytest.raises(InvalidArgumentError, match=match):
+            call()
+
+
+def test_font_scales_are_mujocos_or_numbers(model):
+    scale = mujoco.mjtFontScale.mjFONTSCALE_100
+    compat.Renderer(model, 8, 8, font_scale=scale).close()
+    assert compat.MjrContext(model, scale).fontScale == scale.value
+
+
 def test_what_is_not_drawn_is_a_warning(model):
     context = compat.MjrContext(model)
     with pytest.warns(Engine3DWarning, match="mjr_overlay is not drawn"):
@@ -323,6 +359,13 @@ con = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
 mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, con)
 assert mujoco.Renderer is compat.Renderer and mujoco.mjr_render is compat.mjr_render
 print("OpenGL" in sys.modules, "glfw" in sys.modules)
+context.free()
+import types  # robosuite makes its contexts by modules of its own
+sys.modules["robosuite"] = sys.modules["robosuite.renderers"] = types.ModuleType("robosuite")
+sys.modules["robosuite.renderers.context"] = types.ModuleType("context")
+from robosuite.renderers.context.egl_context import EGLGLContext
+context = EGLGLContext(max_width=64, max_height=64, device_id=0)
+context.make_current()
 context.free()
 """
     environment = {} if platform is None else {"MUJOCO_GL": platform}

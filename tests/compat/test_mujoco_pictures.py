@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from compat.mujoco_rules import light_of, pixel_of
 
-from engine3d import Engine3DWarning
+from engine3d import Engine3DWarning, backends
+from engine3d.errors import BackendError
 
 os.environ.setdefault("MUJOCO_GL", "disable")
 mujoco = pytest.importorskip("mujoco", exc_type=ImportError)
@@ -229,6 +230,72 @@ def test_labels_are_a_warning():
 
     with pytest.warns(Engine3DWarning, match="labels"):
         _drawn(_model("<geom size='.1'/>" + _looking_down()), camera="c", add=add)
+
+
+# ---- backends ----
+
+
+def _numbers(rng, low, high, count):
+    return " ".join(f"{v:.3f}" for v in rng.uniform(low, high, count))
+
+
+def _any_scene(seed):
+    """Return a scene of all that kernels do: textures, cubes, sky, lights, shadows, mirrors."""
+    rng = np.random.default_rng(seed)
+    asset = (
+        "<texture name='t0' type='2d' builtin='checker' width='32' height='16' rgb1='.1 .2 .3' "
+        "rgb2='.8 .9 .6' mark='cross'/>"
+        "<texture name='t1' type='cube' builtin='gradient' width='16' height='16' "
+        "rgb1='1 .5 .2' rgb2='.1 .1 .6' mark='random' random='.1'/>"
+        "<texture name='t2' type='2d' builtin='flat' width='8' height='8' rgb1='.5 .4 .3' "
+        "rgb2='.2 .9 .1' mark='edge' colorspace='sRGB'/>"
+        "<texture type='skybox' builtin='gradient' rgb1='.3 .5 .7' rgb2='0 0 .2' width='16' "
+        "height='96'/><mesh name='m' vertex='0 0 0 .4 0 0 0 .4 0 0 0 .4'/>"
+    )
+    for k in range(3):
+        asset += (
+            f"<material name='m{k}' texture='t{k}' texrepeat='{_numbers(rng, 0.5, 5, 2)}' "
+            f"texuniform='{('true', 'false')[k % 2]}' shininess='{rng.uniform():.3f}' "
+            f"reflectance='{0.4 * (k == 0)}' emission='{rng.uniform(0, 0.3):.3f}'/>"
+        )
+    world = "<geom type='plane' size='2 2 .2' material='m0' contype='0' conaffinity='0'/>"
+    for kind in ("sphere", "capsule", "box", "cylinder", "ellipsoid", "mesh", "box", "sphere"):
+        size = "mesh='m'" if kind == "mesh" else f"size='{_numbers(rng, 0.05, 0.4, 3)}'"
+        looks = f"material='m{rng.integers(3)}'" if rng.random() < 0.5 else ""
+        alpha = rng.choice([1, 1, 1, 0.4])
+        world += (
+            f"<geom type='{kind}' {size} pos='{_numbers(rng, -1, 1, 3)}' {looks} "
+            f"euler='{_numbers(rng, -180, 180, 3)}' rgba='{_numbers(rng, 0, 1, 3)} {alpha}'/>"
+        )
+    for k in range(3):
+        world += (
+            f"<light directional='{('true', 'false')[k % 2]}' "
+            f"castshadow='{('true', 'false')[k // 2]}' "
+            f"pos='{_numbers(rng, -1, 1, 2)} 3' dir='{_numbers(rng, -0.4, 0.4, 2)} -1' "
+            f"cutoff='{rng.uniform(10, 60):.1f}' attenuation='1 .1 .02'/>"
+        )
+    return _model(world, asset, "<quality shadowsize='512' offsamples='4'/>")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_backends_draw_the_same(seed, monkeypatch):
+    model = _any_scene(seed)
+    flags = {"mjRND_FOG": seed % 2, "mjRND_ADDITIVE": seed == 3, "mjRND_WIREFRAME": seed == 4}
+    size = {"width": 50 + 3 * seed, "height": 37 + seed}
+    found = {}
+    for backend in backends():
+        monkeypatch.setenv("ENGINE3D_BACKEND", backend)
+        monkeypatch.setenv("ENGINE3D_THREADS", str(1 + len(found) % 3))
+        for mode in ("rgb", "depth", "segmentation"):
+            picture = _drawn(model, mode, flags, **size)[0]
+            np.testing.assert_array_equal(picture, found.setdefault(mode, picture), backend)
+    assert found["rgb"].std() > 5
+
+
+def test_an_unknown_backend_is_an_error(monkeypatch):
+    monkeypatch.setenv("ENGINE3D_BACKEND", "mmx")
+    with pytest.raises(BackendError, match="ENGINE3D_BACKEND='mmx' is unknown"):
+        Renderer(_any_scene(0), 8, 8)
 
 
 # ---- threads, processes, memory ----

@@ -21,7 +21,7 @@ FOLDERS = {
     "data": {"base", "include"},
     "extras/canvas": {"include"},
     "extras/drawing": {"base", "include"},
-    "extras/mujoco": {"base", "include"},
+    "extras/mujoco": {"base", "include", "kernels"},
     "extras/pybullet": {"base", "include"},
     "extras/pyrender": {"base", "data", "include"},
     "frame/cast": {"base", "data", "frame/pass", "include", "kernels"},

@@ -112,7 +112,7 @@ static int add_part(const muj_picture *picture, e3d_array *list, const muj_draw 
     if (shape < 0 || shape >= frame->shape_count || !frame->shapes[shape].triangles)
         return 1;
     draw.plain = &frame->shapes[plain_of(shape)];
-    draw.shape = frame->is_segmented ? draw.plain : &frame->shapes[shape];
+    draw.shape = frame->is_segmented || !draw.is_lit ? draw.plain : &frame->shapes[shape];
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
             double m = start->world[r][c];

@@ -1,30 +1,51 @@
-/* Faces: the corners of a triangle that shows, with light and texture coordinates (R259, R260).
- * In: a triangle of a draw. Out: weights over the picture, without clipping (Olano and Greer 1997), and what is interpolated. */
+/* Faces: triangles that show, with their weights over the picture, light and texture coordinates (R259, R260).
+ * In: a triangle of a draw. Out: weights without clipping (Olano and Greer 1997), and what is interpolated. */
 #include "extras/mujoco/shading.h"
 
-/* The weights of three points of clip space over the picture. */
-static void set_rows(const muj_point corner[3], double row[3][3])
+/* A point of the picture, times its distance; and the distance. */
+typedef double point[3];
+
+static void place_on_picture(const muj_seen *seen, const double at[3], point out)
+{
+    for (int r = 0; r < 3; r++)
+        out[r] = (seen->rows[r][0] * at[0] + seen->rows[r][1] * at[1]) + (seen->rows[r][2] * at[2] + seen->rows[r][3]);
+}
+
+/* The weight of corner k at (x, y) in pixels is row[k] . (x, y, 1), over the three's sum. */
+static void set_rows(const point corner[3], double row[3][3])
 {
     for (int k = 0; k < 3; k++) {
-        const double *a = corner[(k + 1) % 3].p, *b = corner[(k + 2) % 3].p;
-        row[k][0] = a[1] * b[3] - a[3] * b[1];
-        row[k][1] = a[3] * b[0] - a[0] * b[3];
+        const double *a = corner[(k + 1) % 3], *b = corner[(k + 2) % 3];
+        row[k][0] = a[1] * b[2] - a[2] * b[1];
+        row[k][1] = a[2] * b[0] - a[0] * b[2];
         row[k][2] = a[0] * b[1] - a[1] * b[0];
     }
 }
 
 /* ---- planes ---- */
 
-void muj_set_grid(const muj_view *view, const muj_draw *draw, muj_grid *out)
+static void set_grid(const muj_seen *seen, const muj_draw *draw, muj_grid *out)
 {
     const e3d_muj_plane *plane = draw->plane;
-    muj_point clip[3];
+    point clip[3];
     for (int k = 0; k < 3; k++) {
         for (int c = 0; c < 2; c++)
             out->at[k][c] = plane->lines[c][k == c + 1 ? plane->cells[c] : 0];
-        clip[k] = muj_place(view, draw, (double[3]){out->at[k][0], out->at[k][1], 0});
+        place_on_picture(seen, (double[3]){out->at[k][0], out->at[k][1], 0}, clip[k]);
     }
     set_rows(clip, out->row);
+}
+
+void muj_see(muj_shader *shader, const muj_draw *draw, int32_t number)
+{
+    muj_seen *seen = &shader->seen;
+    if (seen->number == number)
+        return;
+    seen->number = number;
+    for (int r = 0; r < 3; r++)
+        muj_compose(shader->view->rows[r < 2 ? r : 3], draw->world, seen->rows[r]);
+    if (draw->kind == MUJ_GRID)
+        set_grid(seen, draw, &seen->grid);
 }
 
 /* The number of the cell, of those along an axis, in which a coordinate lies. */
@@ -107,57 +128,84 @@ static void turn_normal(const muj_draw *draw, const float normal[3], float out[3
         out[r] = (draw->normal[r][0] * normal[0] + draw->normal[r][1] * normal[1]) + draw->normal[r][2] * normal[2];
 }
 
+/* ---- faces ---- */
+
 /* All passes of what isn't lit show the same colour. */
-static void fill_colors(const muj_view *view, const muj_draw *draw, int k, muj_face *out)
+static void fill_colors(const muj_shader *shader, const muj_draw *draw, muj_face *out)
 {
-    for (int p = 0; p < MUJ_PASSES; p++)
+    for (int p = 0; p < shader->lamps.passes; p++)
         for (int c = 0; c < 3; c++)
-            out->color[p][k][c] = draw->rgba[c] * view->tint;
+            for (int k = 0; k < 3; k++)
+                out->color[p][c][k] = draw->rgba[c] * shader->view->tint;
 }
 
-static void set_line_face(const muj_view *view, const muj_draw *draw, muj_face *out)
+static void set_places(const muj_view *view, const muj_draw *draw, const double at[3], int k, float place[3], muj_face *out)
 {
-    memset(out->row, 0, sizeof out->row);
+    double world[3];
+    for (int r = 0; r < 3; r++) {
+        world[r] = ((draw->world[r][0] * at[0] + draw->world[r][1] * at[1]) + draw->world[r][2] * at[2]) + draw->world[r][3];
+        place[r] = out->place[r][k] = (float)world[r];
+    }
+    out->ahead[k] = (float)(((view->ahead[0] * world[0] + view->ahead[1] * world[1]) + view->ahead[2] * world[2]) + view->ahead[3]);
+}
+
+/* A line is of one colour, as far away as its end. */
+static void set_line(const muj_shader *shader, const muj_draw *draw, muj_face *out)
+{
+    float place[3];
+    memset(out->across, 0, sizeof out->across);
+    memset(out->down, 0, sizeof out->down);
     for (int k = 0; k < 3; k++) {
-        out->row[k][2] = 1;
+        out->base[k] = 1;
         out->alpha[k] = draw->rgba[3];
-        fill_colors(view, draw, k, out);
-        for (int c = 0; c < 3; c++)
-            out->place[k][c] = (float)(draw->world[c][3] + draw->world[c][2] * draw->line_ends[0][1][2]);
-        out->ahead[k] = (float)(((view->ahead[0] * out->place[k][0] + view->ahead[1] * out->place[k][1]) + view->ahead[2] * out->place[k][2]) +
-                                view->ahead[3]);
+        set_places(shader->view, draw, (double[3]){0, 0, draw->line_ends[0][1][2]}, k, place, out);
     }
+    fill_colors(shader, draw, out);
 }
 
-void muj_set_face(const muj_picture *picture, const muj_view *view, const muj_draw *draw, int32_t number, int32_t triangle, int all_lights,
-                  muj_face *out)
+/* Sets what needs the corners' places; light follows later. `face` is the number of `out`. */
+static void set_triangle(muj_shader *shader, const muj_draw *draw, int32_t triangle, int32_t column, int32_t face, muj_face *out)
 {
-    muj_point clip[3];
-    double at[3], place[3];
-    float normal[3], turned[3], uv[2], lit[MUJ_PASSES][3];
-    out->draw = number, out->triangle = triangle;
-    if (draw->kind == MUJ_LINES) {
-        set_line_face(view, draw, out);
-        return;
-    }
+    point clip[3];
+    double at[3], row[3][3], x = column * MUJ_COLUMN + 0.5, y = shader->top + 0.5;
+    float normal[3], place[3][3], turned[3][3], uv[2], coordinates[3];
     for (int k = 0; k < 3; k++) {
         (draw->kind == MUJ_GRID ? find_cell_corner : find_shape_corner)(draw, triangle, k, at, normal, uv);
-        clip[k] = muj_place(view, draw, at);
-        for (int r = 0; r < 3; r++) {
-            place[r] = ((draw->world[r][0] * at[0] + draw->world[r][1] * at[1]) + draw->world[r][2] * at[2]) + draw->world[r][3];
-            out->place[k][r] = (float)place[r];
-        }
-        out->ahead[k] = (float)(((view->ahead[0] * place[0] + view->ahead[1] * place[1]) + view->ahead[2] * place[2]) + view->ahead[3]);
+        place_on_picture(&shader->seen, at, clip[k]);
+        set_places(shader->view, draw, at, k, place[k], out);
         out->alpha[k] = draw->is_haze ? uv[0] : draw->rgba[3];
-        find_coordinates(draw, at, uv, out->coordinates[k]);
-        if (!draw->is_lit) {
-            fill_colors(view, draw, k, out);
-            continue;
-        }
-        turn_normal(draw, normal, turned);
-        muj_light_vertex(picture, view, draw, place, turned, all_lights, lit);
-        for (int p = 0; p <= picture->shadow_count; p++)
-            memcpy(out->color[p][k], lit[p], sizeof lit[p]);
+        find_coordinates(draw, at, uv, coordinates);
+        turn_normal(draw, normal, turned[k]);
+        for (int c = 0; c < 3; c++)
+            out->coordinates[c][k] = coordinates[c];
     }
-    set_rows(clip, out->row);
+    set_rows(clip, row);
+    for (int k = 0; k < 3; k++) {
+        out->base[k] = (float)((row[k][0] * x + row[k][1] * y) + row[k][2]);
+        out->across[k] = (float)row[k][0], out->down[k] = (float)row[k][1];
+    }
+    if (draw->is_lit)
+        muj_add_corners(shader, draw, face, (const float (*)[3])place, (const float (*)[3])turned);
+    else
+        fill_colors(shader, draw, out);
+}
+
+int32_t muj_find_face(muj_shader *shader, const muj_draw *draw, int32_t number, int32_t triangle, int32_t column)
+{
+    uint32_t slot = ((uint32_t)triangle * 5 + (uint32_t)number * 31 + (uint32_t)column * 1021) % MUJ_FACES;
+    muj_known *known = &shader->known[slot];
+    if (known->serial == shader->serial && known->number == number && known->triangle == triangle && known->column == column)
+        return known->face;
+    size_t first = shader->faces.count;
+    if (first > INT32_MAX / 2 || !e3d_array_reserve(&shader->faces, first + sizeof(muj_face) / sizeof(float), sizeof(float)))
+        return MUJ_NONE;
+    shader->faces.count += (size_t)shader->stride;
+    *known = (muj_known){shader->serial, number, triangle, column, (int32_t)first};
+    muj_face *face = (muj_face *)((float *)shader->faces.data + first);
+    muj_see(shader, draw, number);
+    if (draw->kind == MUJ_LINES)
+        set_line(shader, draw, face);
+    else
+        set_triangle(shader, draw, triangle, column, (int32_t)first, face);
+    return (int32_t)first;
 }

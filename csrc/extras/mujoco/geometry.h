@@ -18,19 +18,20 @@ void muj_add_line(const muj_view *view, const muj_point end[2], double width, in
 
 /* ---- setup.c ---- */
 
-/* A vertex in 1/256 pixels, as it is and snapped. */
-typedef struct muj_vertex {
-    float x, y, z;
-    int32_t snapped_x, snapped_y;
-    int32_t outside; /* the triangle needs clipping */
-} muj_vertex;
+/* What a thread sets draws up with: the vertices of one, and which of its triangles may show. */
+typedef struct muj_worker {
+    e3d_array records, numbers, chosen;
+    muj_vertices vertices;          /* in `numbers` */
+    int32_t failed;
+} muj_worker;
 
 /* Whether a draw's box surely shows nothing. */
 int muj_is_outside(const muj_draw *draw, const muj_view *view);
-void muj_transform(const muj_draw *draw, const muj_view *view, muj_vertex *out);
-/* Adds the records of some triangles of a draw. `vertices` are the draw's. */
-void muj_set_up(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, const muj_vertex *vertices, int32_t first,
-                int32_t end, e3d_array *out);
+/* Finds a draw's vertices, and lists its triangles that may show; 0 when memory is out. */
+int muj_choose(const muj_kernels *kernels, const muj_draw *draw, const muj_view *view, int32_t facing, muj_worker *worker);
+/* Adds the records of a triangle of the draw whose vertices a worker has. */
+void muj_set_up(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, int32_t triangle, muj_worker *worker);
+void muj_free_worker(muj_worker *worker);
 void muj_set_up_grid(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, e3d_array *out);
 void muj_set_up_lines(const muj_view *view, int32_t number, const muj_draw *draw, e3d_array *out);
 void muj_set_up_wireframe(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, double width, e3d_array *out);
@@ -44,26 +45,7 @@ typedef struct muj_target {
     int32_t *shown;                 /* numbers of records, or MUJ_NONE */
 } muj_target;
 
-/* ---- raster.c ---- */
-
-void muj_clear(const muj_target *target);
-/* Draws a record: at each sample the nearest shows, and of equals the later. */
-void muj_draw_record(const muj_target *target, const muj_record *record, int32_t number);
-
-/* What a record covers in a group: the lanes in `mask` are not hidden. */
-typedef struct muj_cover {
-    int32_t x, y;                   /* of the group's first pixel */
-    uint32_t mask;
-} muj_cover;
-/* Finds what a record covers of a row, without writing; returns how many groups. There is room for a row of them. */
-int muj_cover_row(const muj_target *target, const muj_record *record, int32_t y, muj_cover *out);
-
 /* ---- layer.c ---- */
-
-typedef struct muj_worker {
-    e3d_array records, vertices;
-    int32_t failed;
-} muj_worker;
 
 /* Draws as one view shows them: their records, in order, and which of them each band needs. */
 typedef struct muj_layer {
@@ -89,3 +71,16 @@ static inline const int32_t *muj_band_items(const muj_layer *layer, int32_t band
     *count = starts[band + 1] - starts[band];
     return (const int32_t *)layer->items.data + starts[band];
 }
+
+/* ---- raster.c ---- */
+
+/* Clears a target, and draws the records of a layer that reach a band: at each sample the nearest shows, and of equals the later. */
+void muj_draw_records(const muj_target *target, const muj_layer *layer, int32_t band);
+
+/* What a record covers in a group: the lanes in `mask` are not hidden. */
+typedef struct muj_cover {
+    int32_t x, y;                   /* of the group's first pixel */
+    uint32_t mask;
+} muj_cover;
+/* Finds what a record covers of a row, without writing; returns how many groups. There is room for a row of them. */
+int muj_cover_row(const muj_target *target, const muj_record *record, int32_t y, muj_cover *out);

@@ -22,10 +22,11 @@ static int set_up_shape(const layer_job *job, int32_t number, const muj_draw *dr
     const muj_view *view = job->layer->view;
     if (muj_is_outside(draw, view))
         return 1;
-    if (!e3d_array_reserve(&worker->vertices, (size_t)draw->shape->vertices, sizeof(muj_vertex)))
+    if (!muj_choose(job->picture->kernels, draw, view, facing, worker))
         return 0;
-    muj_transform(draw, view, worker->vertices.data);
-    muj_set_up(view, number, draw, facing, worker->vertices.data, 0, draw->shape->triangles, &worker->records);
+    const int32_t *chosen = worker->chosen.data;
+    for (size_t i = 0; i < worker->chosen.count; i++)
+        muj_set_up(view, number, draw, facing, chosen[i], worker);
     return 1;
 }
 
@@ -134,10 +135,8 @@ int muj_set_layer(muj_layer *layer, const muj_picture *picture, const muj_view *
 
 void muj_free_layer(muj_layer *layer)
 {
-    for (int32_t w = 0; w < layer->worker_count; w++) {
-        e3d_array_free(&layer->workers[w].records);
-        e3d_array_free(&layer->workers[w].vertices);
-    }
+    for (int32_t w = 0; w < layer->worker_count; w++)
+        muj_free_worker(&layer->workers[w]);
     free(layer->workers);
     e3d_array_free(&layer->parts);
     e3d_array_free(&layer->records);

@@ -1,79 +1,61 @@
-/* Light on vertices, as OpenGL's fixed functions give it (R261; OpenGL 1.5, section 2.14).
- * In: a vertex in the world. Out: colours of 0 .. 1, for the first pass and for each light with shadows. */
+/* Light on faces, as OpenGL's fixed functions give it (R261; OpenGL 1.5, section 2.14): many corners at once.
+ * In: corners in the world. Out: colours of 0 .. 1, for the first pass and for each light with shadows. */
 #include <math.h>
 
 #include "extras/mujoco/shading.h"
-#include "extras/mujoco/power.h"
 
-static float dot(const float a[3], const float b[3]) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-
-static float make_unit(float a[3])
-{
-    float length = sqrtf(dot(a, a));
-    for (int c = 0; c < 3 && length > 0; c++)
-        a[c] /= length;
-    return length;
-}
-
-/* How much of a light arrives, and from where. */
-static float find_strength(const e3d_muj_light *light, const double place[3], float to_light[3])
-{
-    float dir[3] = {light->dir[0], light->dir[1], light->dir[2]};
-    make_unit(dir);
-    if (light->is_directional) {
-        for (int c = 0; c < 3; c++)
-            to_light[c] = -dir[c];
-        return 1;
-    }
-    for (int c = 0; c < 3; c++)
-        to_light[c] = (float)(light->pos[c] - place[c]);
-    float distance = make_unit(to_light), inside = -dot(to_light, dir), cone = 1;
-    if (light->cutoff_cosine > -1) {
-        if (inside < light->cutoff_cosine)
-            return 0;
-        cone = muj_power(inside > 0 ? inside < 1 ? inside : 1 : 0, light->exponent);
-    }
-    const float *a = light->attenuation;
-    return cone / ((a[0] + a[1] * distance) + a[2] * (distance * distance));
-}
-
-static void add_light(const e3d_muj_light *light, const e3d_muj_geom *geom, const float rgb[3], const double place[3], const float normal[3],
-                      const float to_eye[3], float out[3])
-{
-    float to_light[3], strength = find_strength(light, place, to_light), shine = 0;
-    if (strength == 0)
-        return;
-    float facing = dot(normal, to_light), most = facing > 0 ? facing : 0;
-    if (facing > 0 && geom->specular != 0) {
-        float half[3] = {to_light[0] + to_eye[0], to_light[1] + to_eye[1], to_light[2] + to_eye[2]};
-        make_unit(half);
-        float near = dot(normal, half);
-        shine = muj_power(near > 0 ? near < 1 ? near : 1 : 0, geom->shininess * 128);
-    }
-    for (int c = 0; c < 3; c++)
-        out[c] += strength * ((light->ambient[c] * rgb[c] + most * (light->diffuse[c] * rgb[c])) + shine * (light->specular[c] * geom->specular));
-}
-
-void muj_light_vertex(const muj_picture *picture, const muj_view *view, const muj_draw *draw, const double place[3], const float normal[3],
-                      int all_lights, float out[MUJ_PASSES][3])
+void muj_set_lamps(const muj_picture *picture, const muj_view *view, int all_lights, muj_lamps *out)
 {
     const e3d_muj_frame *frame = picture->frame;
-    float rgb[3], unit[3] = {normal[0], normal[1], normal[2]}, to_eye[3];
-    for (int c = 0; c < 3; c++) {
-        rgb[c] = draw->rgba[c] * view->tint;
-        to_eye[c] = (float)(view->eye[c] - place[c]);
-        out[0][c] = draw->geom->emission * rgb[c] + frame->ambient * rgb[c];
-        for (int p = 1; p <= picture->shadow_count; p++)
-            out[p][c] = 0;
-    }
-    make_unit(unit);
-    make_unit(to_eye);
     int pass = 1;
+    out->count = frame->light_count;
+    out->passes = all_lights ? 1 : 1 + picture->shadow_count;
+    out->ambient = frame->ambient;
+    for (int c = 0; c < 3; c++)
+        out->eye[c] = (float)view->eye[c];
     for (int32_t i = 0; i < frame->light_count; i++) {
-        int own = !all_lights && pass <= picture->shadow_count && picture->shadow_lights[pass - 1] == i;
-        add_light(&frame->lights[i], draw->geom, rgb, place, unit, to_eye, out[own ? pass++ : 0]);
-    }
-    for (int p = 0; p <= picture->shadow_count; p++)
+        const e3d_muj_light *light = &frame->lights[i];
+        muj_lamp *lamp = &out->lamp[i];
+        float length = sqrtf((light->dir[0] * light->dir[0] + light->dir[1] * light->dir[1]) + light->dir[2] * light->dir[2]);
+        lamp->is_directional = light->is_directional;
+        lamp->pass = pass < out->passes && picture->shadow_lights[pass - 1] == i ? pass++ : 0;
         for (int c = 0; c < 3; c++)
-            out[p][c] = out[p][c] > 0 ? out[p][c] < 1 ? out[p][c] : 1 : 0;
+            lamp->dir[c] = length > 0 ? light->dir[c] / length : light->dir[c];
+        memcpy(lamp->pos, light->pos, sizeof lamp->pos);
+        memcpy(lamp->attenuation, light->attenuation, sizeof lamp->attenuation);
+        memcpy(lamp->ambient, light->ambient, sizeof lamp->ambient);
+        memcpy(lamp->diffuse, light->diffuse, sizeof lamp->diffuse);
+        memcpy(lamp->specular, light->specular, sizeof lamp->specular);
+        lamp->exponent = light->exponent, lamp->cutoff_cosine = light->cutoff_cosine;
+    }
+}
+
+void muj_add_corners(muj_shader *shader, const muj_draw *draw, int32_t face, const float place[3][3], const float normal[3][3])
+{
+    muj_corners *corners = &shader->corners;
+    if (corners->count == MUJ_CORNERS)
+        muj_light_faces(shader);
+    shader->lit[corners->count / 3] = face;
+    for (int k = 0; k < 3; k++) {
+        int i = corners->count++;
+        for (int c = 0; c < 3; c++) {
+            corners->place[c][i] = place[k][c], corners->normal[c][i] = normal[k][c];
+            corners->rgb[c][i] = draw->rgba[c] * shader->view->tint;
+        }
+        corners->emission[i] = draw->geom->emission;
+        corners->specular[i] = draw->geom->specular, corners->shininess[i] = draw->geom->shininess;
+    }
+}
+
+void muj_light_faces(muj_shader *shader)
+{
+    muj_corners *corners = &shader->corners;
+    float *faces = shader->faces.data;
+    shader->picture->kernels->light(&shader->lamps, corners);
+    for (int i = 0; i < corners->count; i++) {
+        float *face = faces + shader->lit[i / 3] + offsetof(muj_face, color) / sizeof(float);
+        for (int n = 0; n < 3 * shader->lamps.passes; n++)
+            face[3 * n + i % 3] = corners->color[n / 3][n % 3][i];
+    }
+    corners->count = 0;
 }

@@ -8,12 +8,11 @@
 #include "base/grow.h"
 #include "base/vectors.h"
 #include "e3d_mujoco.h"
+#include "extras/mujoco/kernels/kernels.h"
 
-enum { MUJ_PASSES = 1 + E3D_MUJ_LIGHTS, /* the first pass, and one for each light with shadows */
-       MUJ_BAND = 16,                   /* a thread takes so many rows at a time */
+enum { MUJ_BAND = 16,                   /* a thread takes so many rows at a time */
        MUJ_GUARD = 4096,
        MUJ_MOST = 16000, /* pixels of a side, texels of a map: 256 times as many fit 22 bits */
-       MUJ_SUB = 256,                   /* steps of a pixel */
        MUJ_NONE = -1 };
 
 typedef enum muj_kind { MUJ_TRIANGLES = 0,
@@ -59,11 +58,13 @@ typedef struct muj_view {
 
 typedef struct muj_picture {
     const e3d_muj_frame *frame;
+    const muj_kernels *kernels;
     e3d_array draws, blended;       /* opaque draws in order; the haze, then transparent draws, those of near geoms first */
     muj_view view, mirror;
     int32_t has_mirror, has_haze;
     int32_t shadow_lights[E3D_MUJ_LIGHTS], shadow_count;
     int32_t samples, group_pixels, groups; /* pixels of a group; groups of a row */
+    size_t stride;                  /* samples of a row, and room for a vector more */
     int32_t lane_x[4], lane_y[4];   /* the lanes' places in a group, in 1/256 pixel */
 } muj_picture;
 

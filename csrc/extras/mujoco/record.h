@@ -3,15 +3,6 @@
 
 #include "extras/mujoco/picture.h"
 
-/* A triangle in pixels; edges are a*x + b*y + e in steps of 1/256 pixel, counted from the corner of pixel (x0, y0). */
-typedef struct muj_record {
-    int32_t x0, y0, x1, y1;         /* the pixels that it may cover, the last ones included */
-    int32_t a[3], b[3];
-    int64_t e[3];
-    double z, zx, zy;               /* the depth at the corner of pixel (x0, y0), and its change for each pixel */
-    int32_t draw, triangle;
-} muj_record;
-
 static inline int32_t muj_least(const int32_t v[3])
 {
     int32_t least = v[0] < v[1] ? v[0] : v[1];

@@ -3,11 +3,7 @@
  * Always: edges are whole numbers, so that triangles which share one leave no sample out, and cover none twice. */
 #include <math.h>
 
-#include "base/vectors.h"
 #include "extras/mujoco/geometry.h"
-
-#define MAGIC 12582912.0f /* 1.5 * 2^23: adding it rounds a number below 2^22 to a whole one, in the low bits */
-#define MAGIC_BITS 0x4B400000
 
 /* ---- vertices ---- */
 
@@ -38,32 +34,42 @@ int muj_is_outside(const muj_draw *draw, const muj_view *view)
     return all != 0;
 }
 
-static inline int32_t snapped(float v)
+static int reserve_vertices(muj_worker *worker, size_t count)
 {
-    float sum = v + MAGIC;
-    int32_t bits;
-    memcpy(&bits, &sum, sizeof bits);
-    return bits - MAGIC_BITS;
+    size_t room = (count + 16) / 16 * 16; /* whole vectors */
+    if (!e3d_array_reserve(&worker->numbers, 5 * room, sizeof(float)))
+        return 0;
+    float *numbers = worker->numbers.data;
+    worker->vertices = (muj_vertices){numbers, numbers + room, numbers + 2 * room, {(int32_t *)(numbers + 3 * room), (int32_t *)(numbers + 4 * room)}};
+    return 1;
 }
 
-void muj_transform(const muj_draw *draw, const muj_view *view, muj_vertex *out)
+int muj_choose(const muj_kernels *kernels, const muj_draw *draw, const muj_view *view, int32_t facing, muj_worker *worker)
 {
+    const e3d_muj_shape *shape = draw->shape;
     double m[4][4], clip[4];
-    float4 column[4];
+    muj_projection projection = {.most = (float)view->guard * MUJ_SUB, .has_clip = view->has_clip};
+    muj_choice choice = {facing, view->first_sample, {view->low[0], view->low[1]}, {view->high[0], view->high[1]}};
+    if (!reserve_vertices(worker, (size_t)shape->vertices) ||
+        !e3d_array_reserve(&worker->chosen, (size_t)shape->triangles + 16, sizeof(int32_t)))
+        return 0;
     compose_all(view, draw, m);
     muj_compose(view->clip, draw->world, clip);
-    for (int c = 0; c < 4; c++)
-        column[c] = (float4){(float)m[0][c] * MUJ_SUB, (float)m[1][c] * MUJ_SUB, (float)m[2][c], (float)m[3][c]};
-    const float most = (float)view->guard * MUJ_SUB;
-    for (int32_t i = 0; i < draw->shape->vertices; i++) {
-        const float *p = draw->shape->positions + 3 * (size_t)i;
-        float4 v = (column[0] * splat(p[0]) + column[1] * splat(p[1])) + (column[2] * splat(p[2]) + column[3]);
-        float w = v[3], inverse = 1 / w, x = v[0] * inverse, y = v[1] * inverse, z = v[2] * inverse;
-        int inside = (w > 0) & (z <= 1) & (x > -most) & (x < most) & (y > -most) & (y < most);
-        if (view->has_clip)
-            inside &= apply(clip, (double[3]){p[0], p[1], p[2]}) >= 0;
-        out[i] = (muj_vertex){x, y, z, inside ? snapped(x) : 0, inside ? snapped(y) : 0, !inside};
+    for (int c = 0; c < 4; c++) {
+        for (int r = 0; r < 4; r++)
+            projection.column[c][r] = (float)m[r][c] * (r < 2 ? MUJ_SUB : 1);
+        projection.clip[c] = (float)clip[c];
     }
+    kernels->transform(&projection, shape->positions, shape->vertices, &worker->vertices);
+    worker->chosen.count = (size_t)kernels->choose(&choice, &worker->vertices, shape->corners, 0, shape->triangles, worker->chosen.data);
+    return 1;
+}
+
+void muj_free_worker(muj_worker *worker)
+{
+    e3d_array_free(&worker->records);
+    e3d_array_free(&worker->numbers);
+    e3d_array_free(&worker->chosen);
 }
 
 void muj_find_corner(const muj_draw *draw, int32_t triangle, int corner, double out[3])
@@ -76,10 +82,11 @@ void muj_find_corner(const muj_draw *draw, int32_t triangle, int corner, double 
 /* ---- records ---- */
 
 /* Depth is that of the vertices as they were before they were snapped. */
-static void set_depth(const muj_vertex *const v[3], muj_record *out)
+static void set_depth(const muj_vertices *v, const int32_t corner[3], muj_record *out)
 {
-    double x = v[0]->x, y = v[0]->y, z = v[0]->z;
-    double x1 = v[1]->x - x, x2 = v[2]->x - x, y1 = v[1]->y - y, y2 = v[2]->y - y, z1 = v[1]->z - z, z2 = v[2]->z - z;
+    double x = v->x[corner[0]], y = v->y[corner[0]], z = v->z[corner[0]];
+    double x1 = v->x[corner[1]] - x, y1 = v->y[corner[1]] - y, z1 = v->z[corner[1]] - z;
+    double x2 = v->x[corner[2]] - x, y2 = v->y[corner[2]] - y, z2 = v->z[corner[2]] - z;
     double area = x1 * y2 - x2 * y1, scale = area != 0 ? MUJ_SUB / area : 0;
     out->zx = (z1 * y2 - z2 * y1) * scale;
     out->zy = (z2 * x1 - z1 * x2) * scale;
@@ -87,9 +94,12 @@ static void set_depth(const muj_vertex *const v[3], muj_record *out)
 }
 
 /* Adds a triangle of vertices that need no clipping. With rows downwards, fronts have negative areas. */
-static void add_plain(const muj_view *view, const muj_vertex *const v[3], int32_t facing, int32_t number, int32_t triangle, e3d_array *out)
+static void add_plain(const muj_view *view, const muj_vertices *v, const int32_t corner[3], int32_t facing, int32_t number, int32_t triangle,
+                      e3d_array *out)
 {
-    int32_t x[3] = {v[0]->snapped_x, v[1]->snapped_x, v[2]->snapped_x}, y[3] = {v[0]->snapped_y, v[1]->snapped_y, v[2]->snapped_y};
+    int32_t x[3], y[3];
+    for (int k = 0; k < 3; k++)
+        x[k] = v->snapped[0][corner[k]], y[k] = v->snapped[1][corner[k]];
     int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
     if (area == 0 || (facing > 0 && area > 0) || (facing < 0 && area < 0))
         return;
@@ -102,7 +112,7 @@ static void add_plain(const muj_view *view, const muj_vertex *const v[3], int32_
         y[1] = y[2], y[2] = kept_y;
     }
     muj_set_edges(x, y, record);
-    set_depth(v, record);
+    set_depth(v, corner, record);
     record->draw = number;
     record->triangle = triangle;
     out->count++;
@@ -110,24 +120,20 @@ static void add_plain(const muj_view *view, const muj_vertex *const v[3], int32_
 
 /* ---- draws ---- */
 
-void muj_set_up(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, const muj_vertex *vertices, int32_t first,
-                int32_t end, e3d_array *out)
+void muj_set_up(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, int32_t triangle, muj_worker *worker)
 {
-    for (int32_t t = first; t < end; t++) {
-        const int32_t *corner = draw->shape->corners + 3 * (size_t)t;
-        const muj_vertex *v[3] = {vertices + corner[0], vertices + corner[1], vertices + corner[2]};
-        if (!(v[0]->outside | v[1]->outside | v[2]->outside)) {
-            add_plain(view, v, facing, number, t, out);
-            continue;
-        }
-        muj_point at[3];
-        for (int k = 0; k < 3; k++) {
-            double local[3];
-            muj_find_corner(draw, t, k, local);
-            at[k] = muj_place(view, draw, local);
-        }
-        muj_clip_triangle(view, at, facing, number, t, out);
+    const int32_t *corner = draw->shape->corners + 3 * (size_t)triangle, *x = worker->vertices.snapped[0];
+    if (x[corner[0]] != MUJ_OUTSIDE && x[corner[1]] != MUJ_OUTSIDE && x[corner[2]] != MUJ_OUTSIDE) {
+        add_plain(view, &worker->vertices, corner, facing, number, triangle, &worker->records);
+        return;
     }
+    muj_point at[3];
+    for (int k = 0; k < 3; k++) {
+        double local[3];
+        muj_find_corner(draw, triangle, k, local);
+        at[k] = muj_place(view, draw, local);
+    }
+    muj_clip_triangle(view, at, facing, number, triangle, &worker->records);
 }
 
 void muj_set_up_grid(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, e3d_array *out)

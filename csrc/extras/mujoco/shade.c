@@ -1,169 +1,222 @@
-/* Shading: the colours of a triangle at the centres of four pixels of a row (R259 - R264).
- * In: a record and pixels. Out: a colour for each pass. */
-#include <math.h>
+/* Shading: the colours of fragments, those with the same texture together (R259 - R264).
+ * In: records and pixels of a band. Out: the codes of each pass. */
+#include <stdlib.h>
 
 #include "extras/mujoco/shading.h"
 
-void muj_begin_shading(muj_shader *shader, const muj_picture *picture, const muj_view *view, int all_lights)
+#define LEAST_ALPHA 0.99f /* less doesn't receive the light of lights with shadows */
+
+typedef struct chain {
+    int32_t first, last;
+} chain;
+
+void muj_begin_shading(muj_shader *shader, const muj_picture *picture, const muj_view *view, int all_lights, int is_blending)
 {
+    const e3d_muj_frame *frame = picture->frame;
+    float range = frame->fog_end - frame->fog_start;
     shader->picture = picture;
     shader->view = view;
-    shader->all_lights = all_lights;
-    shader->grid.draw = MUJ_NONE;
-    shader->number++; /* memory begins with faces of picture 0 */
+    shader->is_blending = is_blending;
+    muj_set_lamps(picture, view, all_lights, &shader->lamps);
+    shader->stride = (int32_t)(offsetof(muj_face, color) / sizeof(float)) + 9 * shader->lamps.passes;
+    shader->fog = (muj_fog){frame->fog_end, range != 0 ? range : 1, {frame->fog[0], frame->fog[1], frame->fog[2]}};
+    shader->seen.number = MUJ_NONE;
 }
 
-static const muj_face *find_face(muj_shader *shader, const muj_draw *draw, int32_t number, int32_t triangle)
+int muj_begin_band(muj_shader *shader, int32_t top, muj_fragments *fragments)
 {
-    muj_face *face = &shader->face[((uint32_t)triangle * 5 + (uint32_t)number * 31) % MUJ_FACES];
-    if (face->draw != number || face->triangle != triangle || face->picture != shader->number) {
-        muj_set_face(shader->picture, shader->view, draw, number, triangle, shader->all_lights, face);
-        face->picture = shader->number;
-    }
-    return face;
+    size_t textures = 1 + (size_t)shader->picture->frame->texture_count;
+    shader->top = top;
+    shader->serial++; /* memory begins with faces of band 0 */
+    shader->faces.count = fragments->runs.count = 0;
+    fragments->count = 0;
+    if (!e3d_array_reserve(&shader->chains, textures, sizeof(chain)))
+        return 0;
+    memset(shader->chains.data, 0xFF, textures * sizeof(chain)); /* MUJ_NONE */
+    return 1;
 }
 
-static float4 clamp4(float4 v) { return less_of(more_of(v, splat(0)), splat(1)); }
-
-/* The shares of the corners at the centres of four pixels; computed from pixel `first` of them. */
-static void weigh(const muj_face *face, int32_t x, int32_t y, int first, float4 out[3])
+/* Whether a triangle is of the side that reflects: of a plane, or the upper one of a box. */
+static int reflects(const muj_draw *draw, int32_t triangle)
 {
-    double w[3], sum = 0, px = x + first + 0.5, py = y + 0.5;
-    for (int k = 0; k < 3; k++) {
-        w[k] = (face->row[k][0] * px + face->row[k][1] * py) + face->row[k][2];
-        sum += w[k];
-    }
-    double scale = 1 / sum;
-    float4 step = (float4){0, 1, 2, 3} - splat((float)first), total;
-    if (!(scale - scale == 0)) { /* seen from the side: any point of it will do */
-        out[0] = out[1] = out[2] = splat(1.0f / 3);
-        return;
-    }
-    for (int k = 0; k < 3; k++)
-        out[k] = splat((float)(w[k] * scale)) + step * splat((float)(face->row[k][0] * scale));
-    total = splat(1) / ((out[0] + out[1]) + out[2]);
-    for (int k = 0; k < 3; k++)
-        out[k] *= total;
+    return draw->is_reflective && (draw->kind == MUJ_GRID || draw->shape->normals[9 * (size_t)triangle + 2] > 0.5f);
 }
 
-static float4 mix(const float4 weight[3], float a, float b, float c) { return (weight[0] * splat(a) + weight[1] * splat(b)) + weight[2] * splat(c); }
-
-static void mix3(const float4 weight[3], const float corner[3][3], float4 out[3])
+/* Adds a run of one face. */
+static int add_face(muj_shader *shader, const muj_draw *draw, muj_run run, muj_fragments *fragments)
 {
-    for (int c = 0; c < 3; c++)
-        out[c] = mix(weight, corner[0][c], corner[1][c], corner[2][c]);
+    int32_t texture = draw->mapping == MUJ_UNTEXTURED ? 0 : 1 + (int32_t)(draw->texture - shader->picture->frame->textures);
+    int32_t number = (int32_t)fragments->runs.count;
+    chain *of = (chain *)shader->chains.data + texture;
+    if (fragments->count > INT32_MAX - run.count || !e3d_array_reserve(&fragments->runs, (size_t)number + 1, sizeof run))
+        return 0;
+    muj_run *runs = fragments->runs.data;
+    if (of->first == MUJ_NONE)
+        of->first = number;
+    else
+        runs[of->last].next = number;
+    of->last = number;
+    run.next = MUJ_NONE;
+    run.first = fragments->count;
+    runs[number] = run;
+    fragments->runs.count++;
+    fragments->count += run.count;
+    return 1;
 }
 
-/* Multiplies all passes by texels. Their level is found once for each block of 2 x 2 pixels, which are counted from below. */
-static void apply_texture(const e3d_muj_frame *frame, const muj_draw *draw, const muj_face *face, const float4 weight[3], int32_t x, int32_t y,
-                          int first, uint32_t lanes, int passes, muj_colors *out)
+/* Where the pixels end that show the same triangle of a plane as pixel x: along a row they follow each other. */
+static int32_t end_of_cell(const muj_draw *draw, const muj_grid *grid, int32_t triangle, int32_t x, int32_t end, int32_t y)
 {
-    int32_t low = frame->height - 1 - ((frame->height - 1 - y) & ~1);
-    float4 beside[3], row[2][3], texel[4] = {{0}};
-    weigh(face, x, y == low ? low - 1 : low, first, beside);
-    mix3(weight, face->coordinates, row[y != low]);
-    mix3(beside, face->coordinates, row[y == low]);
-    const float4 *own = row[y != low];
-    muj_level levels[2];
-    muj_find_levels(draw->texture, row[0], row[1], levels);
-    for (int l = 0; l < 4; l++) {
-        float sample[4] = {0};
-        if (lanes >> l & 1)
-            muj_sample(draw->texture, (float[3]){own[0][l], own[1][l], own[2][l]}, levels[l >> 1], sample);
-        for (int c = 0; c < 4; c++)
-            texel[c][l] = sample[c];
+    int32_t same = x, other = end;
+    if (muj_cell_at(draw, grid, end - 0.5, y + 0.5) == triangle)
+        return end;
+    while (other - same > 1) {
+        int32_t middle = same + (other - same) / 2;
+        if (muj_cell_at(draw, grid, middle + 0.5, y + 0.5) == triangle)
+            same = middle;
+        else
+            other = middle;
     }
-    for (int p = 0; p < passes; p++)
-        for (int c = 0; c < 3; c++)
-            out->rgb[p][c] *= texel[c];
-    out->alpha *= texel[3];
+    return other;
 }
 
-/* Fog is black in the passes of lights with shadows. */
-static void apply_fog(const e3d_muj_frame *frame, float4 ahead, int passes, muj_colors *out)
-{
-    float range = frame->fog_end - frame->fog_start;
-    float4 share = clamp4((splat(frame->fog_end) - size_of(ahead)) / splat(range != 0 ? range : 1));
-    for (int p = 0; p < passes; p++)
-        for (int c = 0; c < 3; c++)
-            out->rgb[p][c] = out->rgb[p][c] * share + splat(p ? 0 : frame->fog[c]) * (splat(1) - share);
-}
-
-/* Shades lanes that show one triangle; the first one is number `first`. */
-static void shade_triangle(muj_shader *shader, const muj_draw *draw, int32_t number, int32_t triangle, int32_t x, int32_t y, int first,
-                           uint32_t lanes, muj_colors *out)
-{
-    const e3d_muj_frame *frame = shader->picture->frame;
-    const muj_face *face = find_face(shader, draw, number, triangle);
-    int passes = shader->all_lights ? 1 : 1 + shader->picture->shadow_count;
-    float4 weight[3];
-    weigh(face, x, y, first, weight);
-    for (int p = 0; p < passes; p++) {
-        mix3(weight, face->color[p], out->rgb[p]);
-        for (int c = 0; c < 3; c++)
-            out->rgb[p][c] = clamp4(out->rgb[p][c]);
-    }
-    out->alpha = mix(weight, face->alpha[0], face->alpha[1], face->alpha[2]);
-    if (passes > 1)
-        mix3(weight, face->place, out->place);
-    if (draw->mapping != MUJ_UNTEXTURED)
-        apply_texture(frame, draw, face, weight, x, y, first, lanes, passes, out);
-    if (frame->has_fog)
-        apply_fog(frame, mix(weight, face->ahead[0], face->ahead[1], face->ahead[2]), passes, out);
-}
-
-/* Takes some lanes of b. */
-static void take_lanes(const muj_shader *shader, const muj_colors *b, uint32_t lanes, muj_colors *out)
-{
-    int passes = shader->all_lights ? 1 : 1 + shader->picture->shadow_count;
-    int4 mask;
-    for (int l = 0; l < 4; l++)
-        mask[l] = lanes >> l & 1 ? -1 : 0;
-    for (int c = 0; c < 3; c++) {
-        for (int p = 0; p < passes; p++)
-            out->rgb[p][c] = choose(mask, b->rgb[p][c], out->rgb[p][c]);
-        if (passes > 1)
-            out->place[c] = choose(mask, b->place[c], out->place[c]);
-    }
-    out->alpha = choose(mask, b->alpha, out->alpha);
-}
-
-static int first_of(uint32_t lanes) { return lanes & 1 ? 0 : lanes & 2 ? 1
-                                                         : lanes & 4   ? 2
-                                                                       : 3; }
-
-static int last_of(uint32_t lanes) { return lanes & 8 ? 3 : lanes & 4 ? 2
-                                                        : lanes & 2   ? 1
-                                                                      : 0; }
-
-/* A plane's cells may change between the lanes. */
-static void shade_grid(muj_shader *shader, const muj_draw *draw, int32_t number, int32_t x, int32_t y, uint32_t lanes, muj_colors *out)
-{
-    if (shader->grid.draw != number) {
-        muj_set_grid(shader->view, draw, &shader->grid);
-        shader->grid.draw = number;
-    }
-    int first = first_of(lanes), last = last_of(lanes);
-    int32_t from = muj_cell_at(draw, &shader->grid, x + first + 0.5, y + 0.5);
-    int32_t to = first == last ? from : muj_cell_at(draw, &shader->grid, x + last + 0.5, y + 0.5);
-    if (from == to) {
-        shade_triangle(shader, draw, number, from, x, y, first, lanes, out);
-        return;
-    }
-    for (int l = first; l <= last; l++)
-        if (lanes >> l & 1) {
-            muj_colors one;
-            int32_t cell = muj_cell_at(draw, &shader->grid, x + l + 0.5, y + 0.5);
-            shade_triangle(shader, draw, number, cell, x, y, l, 1u << l, &one);
-            take_lanes(shader, &one, 1u << l, out);
-        }
-}
-
-void muj_shade(muj_shader *shader, const muj_record *record, int32_t x, int32_t y, uint32_t lanes, muj_colors *out)
+int muj_add_run(muj_shader *shader, const muj_record *record, int32_t x, int32_t end, int32_t y, uint32_t mask, muj_fragments *fragments)
 {
     const muj_draw *draw = muj_draw_of(shader->picture, record->draw);
-    if (draw->kind == MUJ_GRID)
-        shade_grid(shader, draw, record->draw, x, y, lanes, out);
-    else
-        shade_triangle(shader, draw, record->draw, record->triangle, x, y, first_of(lanes), lanes, out);
+    muj_run run = {.y = (uint8_t)(y - shader->top), .mask = (uint8_t)mask, .is_unlit = !draw->geom};
+    run.adds = (uint8_t)reflects(draw, record->triangle);
+    while (x < end) {
+        int32_t column = x / MUJ_COLUMN, last = (column + 1) * MUJ_COLUMN < end ? (column + 1) * MUJ_COLUMN : end, triangle = record->triangle;
+        if (draw->kind == MUJ_GRID) {
+            muj_see(shader, draw, record->draw);
+            triangle = muj_cell_at(draw, &shader->seen.grid, x + 0.5, y + 0.5);
+            last = end_of_cell(draw, &shader->seen.grid, triangle, x, last, y);
+        }
+        run.face = muj_find_face(shader, draw, record->draw, triangle, column);
+        run.x = (uint8_t)(x % MUJ_COLUMN);
+        run.pixel = y * shader->picture->frame->width + x;
+        run.count = last - x;
+        if (run.face < 0 || !add_face(shader, draw, run, fragments))
+            return 0;
+        x = last;
+    }
+    return 1;
+}
+
+/* ---- batches ---- */
+
+/* Which fragments a batch has: parts of runs. */
+typedef struct parts {
+    int32_t count, first[MUJ_BATCH], length[MUJ_BATCH], is_unlit[MUJ_BATCH];
+} parts;
+
+/* Finds the lights with shadows that don't matter to fragments: they are too transparent, or the lights add nothing. */
+static void set_shadowed(const muj_batch *batch, int from, int count, int is_unlit, uint8_t *out)
+{
+    if (is_unlit) {
+        memset(out, 0xFF, (size_t)count);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        out[i] = batch->alpha[from + i] >= LEAST_ALPHA ? 0 : 0xFF;
+    for (int p = 1; p < batch->passes; p++)
+        for (int i = 0; i < count; i++)
+            out[i] |= (uint8_t)((batch->code[p][from + i] == 0) << (p - 1));
+}
+
+static void write_batch(const muj_shader *shader, const parts *of, muj_fragments *fragments)
+{
+    const muj_batch *batch = &shader->batch;
+    int from = 0;
+    for (int k = 0; k < of->count; from += of->length[k++]) {
+        size_t first = (size_t)of->first[k], bytes = (size_t)of->length[k] * 4;
+        for (int p = 0; p < batch->passes; p++)
+            memcpy(muj_codes_of(fragments, p) + first, batch->code[p] + from, bytes);
+        for (int i = 0; shader->is_blending && i < of->length[k]; i++)
+            muj_codes_of(fragments, 0)[first + (size_t)i] |= (uint32_t)muj_code(batch->alpha[from + i]) << 24;
+        for (int c = 0; c < 3 && batch->needs_place; c++)
+            memcpy(muj_places_of(fragments, c) + first, batch->place[c] + from, bytes);
+        if (batch->needs_place)
+            set_shadowed(batch, from, of->length[k], of->is_unlit[k], (uint8_t *)fragments->shadowed.data + first);
+    }
+}
+
+static void shade_batch(muj_shader *shader, parts *of, muj_fragments *fragments)
+{
+    muj_batch *batch = &shader->batch;
+    if (!batch->count)
+        return;
+    for (int i = batch->count; i & 15; i++) /* whole vectors */
+        batch->face[i] = batch->face[i - 1], batch->x[i] = batch->x[i - 1], batch->y[i] = batch->y[i - 1];
+    shader->picture->kernels->shade(batch);
+    write_batch(shader, of, fragments);
+    batch->count = of->count = 0;
+}
+
+/* Adds a run to batches, and shades those that are full. */
+static void take_run(muj_shader *shader, const muj_run *run, parts *of, muj_fragments *fragments)
+{
+    muj_batch *batch = &shader->batch;
+    for (int32_t done = 0; done < run->count;) {
+        int32_t room = MUJ_BATCH - batch->count, left = run->count - done, length = left < room ? left : room;
+        for (int i = 0; i < length; i++) {
+            batch->face[batch->count + i] = run->face;
+            batch->x[batch->count + i] = run->x + done + i, batch->y[batch->count + i] = run->y;
+        }
+        of->first[of->count] = run->first + done, of->length[of->count] = length;
+        of->is_unlit[of->count++] = run->is_unlit;
+        batch->count += length;
+        done += length;
+        if (batch->count == MUJ_BATCH)
+            shade_batch(shader, of, fragments);
+    }
+}
+
+static int reserve_results(const muj_batch *batch, muj_fragments *fragments)
+{
+    size_t count = (size_t)fragments->count;
+    return e3d_array_reserve(&fragments->codes, count * (size_t)batch->passes, sizeof(uint32_t)) &&
+           (!batch->needs_place || (e3d_array_reserve(&fragments->places, 3 * count, sizeof(float)) &&
+                                    e3d_array_reserve(&fragments->shadowed, count, 1)));
+}
+
+int muj_shade_all(muj_shader *shader, muj_fragments *fragments)
+{
+    const muj_picture *picture = shader->picture;
+    const chain *chains = shader->chains.data;
+    const muj_run *runs = fragments->runs.data;
+    muj_batch *batch = &shader->batch;
+    parts of = {.count = 0};
+    muj_light_faces(shader);
+    batch->faces = shader->faces.data;
+    batch->fog = picture->frame->has_fog ? &shader->fog : NULL;
+    batch->bottom = picture->frame->height - 1 - shader->top;
+    batch->passes = shader->lamps.passes;
+    batch->needs_place = batch->passes > 1;
+    batch->needs_alpha = batch->needs_place || shader->is_blending;
+    batch->count = 0;
+    fragments->passes = batch->passes;
+    if (!reserve_results(batch, fragments))
+        return 0;
+    for (int32_t k = 0; k <= picture->frame->texture_count; k++) {
+        batch->texture = k ? &picture->frame->textures[k - 1] : NULL;
+        for (int32_t i = chains[k].first; i != MUJ_NONE; i = runs[i].next)
+            take_run(shader, &runs[i], &of, fragments);
+        shade_batch(shader, &of, fragments);
+    }
+    return 1;
+}
+
+void muj_free_shader(muj_shader *shader)
+{
+    e3d_array_free(&shader->faces);
+    e3d_array_free(&shader->chains);
+}
+
+void muj_free_fragments(muj_fragments *fragments)
+{
+    e3d_array_free(&fragments->runs);
+    e3d_array_free(&fragments->codes);
+    e3d_array_free(&fragments->places);
+    e3d_array_free(&fragments->shadowed);
 }

@@ -1,71 +1,97 @@
-/* From what shows to colours: faces, light, texels. */
+/* From what shows to colours: faces, their light, fragments. */
 #pragma once
 
 #include "extras/mujoco/geometry.h"
 
-/* A triangle's corners: their weights over the picture, and what is interpolated. */
-typedef struct muj_face {
-    int32_t draw, triangle;
-    uint32_t picture;               /* the shader's number of the picture that it is of */
-    double row[3][3];               /* the weight of corner k at (x, y) in pixels is row[k] . (x, y, 1), over the three's sum */
-    float color[MUJ_PASSES][3][3];  /* pass, corner, channel */
-    float alpha[3], ahead[3];
-    float coordinates[3][3], place[3][3];
-} muj_face;
+/* Fragments of one face: what it shows in pixels that follow each other. */
+typedef struct muj_run {
+    int32_t pixel, count;           /* the first one, of the picture */
+    int32_t first;                  /* the number of its fragment */
+    int32_t face, next;             /* next: the run with the same texture */
+    uint8_t x, y;                   /* in column and band */
+    uint8_t mask, adds, is_unlit;   /* their samples; whether they are added to the reflection; whether no shadow light matters */
+} muj_run;
 
-/* ---- faces.c ---- */
+/* The fragments of a band, and what is found of each. */
+typedef struct muj_fragments {
+    e3d_array runs, codes, places, shadowed; /* shadowed: a bit for each light with shadows that adds nothing */
+    int32_t count, passes;
+} muj_fragments;
 
-/* Finds the face of a triangle. Passes: 1 for all lights at once, or one more for each shadow light. */
-void muj_set_face(const muj_picture *picture, const muj_view *view, const muj_draw *draw, int32_t number, int32_t triangle, int all_lights,
-                  muj_face *out);
+/* The codes of all fragments in a pass: red, green, blue, alpha. */
+static inline uint32_t *muj_codes_of(const muj_fragments *fragments, int pass)
+{
+    return (uint32_t *)fragments->codes.data + (size_t)pass * (size_t)fragments->count;
+}
+/* A coordinate of all fragments, where lights have shadows. */
+static inline float *muj_places_of(const muj_fragments *fragments, int axis)
+{
+    return (float *)fragments->places.data + (size_t)axis * (size_t)fragments->count;
+}
+void muj_free_fragments(muj_fragments *fragments);
+
 /* A plane as a whole: the weights of three of its corners over the picture, and their places on it. */
 typedef struct muj_grid {
-    int32_t draw;
     double row[3][3], at[3][2];
 } muj_grid;
 
-void muj_set_grid(const muj_view *view, const muj_draw *draw, muj_grid *out);
-/* The number of the triangle of a plane's cells at a point of the picture. */
-int32_t muj_cell_at(const muj_draw *draw, const muj_grid *grid, double x, double y);
-/* ---- light.c ---- */
+/* A draw as a view shows it. */
+typedef struct muj_seen {
+    int32_t number;                 /* of the draw */
+    double rows[3][4];              /* X, Y, W of a place on it */
+    muj_grid grid;                  /* of planes */
+} muj_seen;
 
-/* Finds the light on a vertex, clamped to 0 .. 1, for each pass. */
-void muj_light_vertex(const muj_picture *picture, const muj_view *view, const muj_draw *draw, const double place[3], const float normal[3],
-                      int all_lights, float out[MUJ_PASSES][3]);
+enum { MUJ_FACES = 2048,
+       MUJ_LIT = MUJ_CORNERS / 3 };
 
-/* ---- texels.c ---- */
+/* A face that was found, by the triangle and the column to which it belongs. */
+typedef struct muj_known {
+    uint32_t serial;                /* of the band */
+    int32_t number, triangle, column, face;
+} muj_known;
 
-/* A level of a texture, and the share of the next one. */
-typedef struct muj_level {
-    int32_t number;
-    float share;
-} muj_level;
-
-/* The coordinates of four pixels, and of those above or below them, the lower row first: the levels of the two blocks. */
-void muj_find_levels(const e3d_muj_texture *texture, const float4 lower[3], const float4 upper[3], muj_level out[2]);
-void muj_sample(const e3d_muj_texture *texture, const float at[3], muj_level level, float out[4]);
-
-/* ---- shade.c ---- */
-
-enum { MUJ_FACES = 1024 };
-
-/* Faces that were lit last. */
+/* What a thread shades the fragments of a band with. */
 typedef struct muj_shader {
     const muj_picture *picture;
     const muj_view *view;
-    int32_t all_lights;
-    uint32_t number;                /* counts pictures: faces of earlier ones are not used */
-    muj_grid grid;                  /* of the plane that was lit last */
-    muj_face face[MUJ_FACES];
+    int32_t is_blending;            /* colours have alpha, and all lights are in one pass */
+    int32_t top, stride;            /* the band's first row; numbers of a face */
+    uint32_t serial;
+    muj_lamps lamps;
+    muj_fog fog;
+    muj_seen seen;
+    e3d_array faces, chains;        /* chains: for each texture, and none, the first and last run */
+    muj_corners corners;            /* of faces that are not lit yet, whose numbers follow */
+    int32_t lit[MUJ_LIT];
+    muj_batch batch;
+    muj_known known[MUJ_FACES];
 } muj_shader;
 
-/* Of four pixels. */
-typedef struct muj_colors {
-    float4 rgb[MUJ_PASSES][3];      /* 0 .. 1 */
-    float4 alpha;
-    float4 place[3];                /* if there are lights with shadows */
-} muj_colors;
+/* ---- faces.c ---- */
 
-void muj_begin_shading(muj_shader *shader, const muj_picture *picture, const muj_view *view, int all_lights);
-/* Finds the colours of a record at the centres of pixels x + 0 .. 3, those in `lanes`; x is a multiple of 4. */
-void muj_shade(muj_shader *shader, const muj_record *record, int32_t x, int32_t y, uint32_t lanes, muj_colors *out);
+/* The number of a face of a triangle for pixels of a column; MUJ_NONE when memory is out. */
+int32_t muj_find_face(muj_shader *shader, const muj_draw *draw, int32_t number, int32_t triangle, int32_t column);
+/* Sets shader->seen. */
+void muj_see(muj_shader *shader, const muj_draw *draw, int32_t number);
+/* The number of the triangle of a plane's cells at a point of the picture. */
+int32_t muj_cell_at(const muj_draw *draw, const muj_grid *grid, double x, double y);
+
+/* ---- light.c ---- */
+
+void muj_set_lamps(const muj_picture *picture, const muj_view *view, int all_lights, muj_lamps *out);
+/* Adds the three corners of a face to those that are to be lit. */
+void muj_add_corners(muj_shader *shader, const muj_draw *draw, int32_t face, const float place[3][3], const float normal[3][3]);
+/* Lights all corners that wait. */
+void muj_light_faces(muj_shader *shader);
+
+/* ---- shade.c ---- */
+
+/* is_blending: of transparent geoms. The mirrored ones, too, get all lights in one pass. */
+void muj_begin_shading(muj_shader *shader, const muj_picture *picture, const muj_view *view, int all_lights, int is_blending);
+int muj_begin_band(muj_shader *shader, int32_t top, muj_fragments *fragments);
+/* Adds fragments of a record in pixels x .. end - 1 of a row; 0 when memory is out. */
+int muj_add_run(muj_shader *shader, const muj_record *record, int32_t x, int32_t end, int32_t y, uint32_t mask, muj_fragments *fragments);
+/* Shades all fragments of a band; 0 when memory is out. */
+int muj_shade_all(muj_shader *shader, muj_fragments *fragments);
+void muj_free_shader(muj_shader *shader);

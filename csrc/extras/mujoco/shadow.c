@@ -4,6 +4,7 @@
  * they are listed by cells of the map, and each triangle looks at the cells that it covers (Johnson and others 2005). */
 #include <math.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 
 #include "base/pool.h"
 #include "extras/mujoco/passes.h"
@@ -11,21 +12,23 @@
 enum { LEAST_CELLS = 64, /* along a side of the box of all texels that are read; with more of these, more */
        MOST_CELLS = 1024,
        PARTS = 64,             /* along a side of the map, where it is noted whether there is a caster at all */
-       DEPTHS = (1 << 24) - 1 /* steps of a map's depths */ };
+       DEPTHS = (1 << 24) - 1, /* steps of a map's depths */
+       HIDDEN = INT32_MAX,     /* as a depth */
+       CHUNK = 64 };
 
 #define OFFSET_FACTOR 1.5
 #define OFFSET_UNITS (4 * 0x1p-24)
 
 typedef struct lookup {
-    double z;                  /* the fragment's depth */
-    int32_t x, y;
+    int32_t step;              /* the fragment's depth in steps, rounded down */
+    int16_t x, y;
     uint8_t *mark;
 } lookup;
 
 typedef struct cast_job {
     const muj_picture *picture;
     muj_shadow_memory *memory;
-    const e3d_array *fragments; /* of each band */
+    const muj_fragments *fragments; /* of each band */
     muj_view view;
     e3d_array *planes;         /* the records of all planes: each lookup is tested against them at once */
     uint8_t occupied[PARTS][PARTS]; /* whether anything else may cast there */
@@ -33,7 +36,9 @@ typedef struct cast_job {
     int32_t shift;             /* texels of a cell's side, as a power of two */
     int32_t cells[2];
     uint8_t bit;
-    int32_t bands, count;
+    int32_t bands, count, is_alone; /* is_alone: there is one thread */
+    muj_lookups lookups;            /* in the order of their cells */
+    uint8_t **marks;
     atomic_int next_band, next, failed;
 } cast_job;
 
@@ -71,7 +76,7 @@ static int find_casters(cast_job *job)
         if (!draw->casts || draw->kind == MUJ_LINES)
             continue;
         if (draw->kind == MUJ_GRID)
-            muj_set_up_grid(&job->view, 0, draw, 0, job->planes);
+            muj_set_up_grid(&job->view, i, draw, 0, job->planes);
         else if (!muj_is_outside(draw, &job->view))
             occupy(job, draw);
     }
@@ -80,43 +85,52 @@ static int find_casters(cast_job *job)
 
 /* ---- lookups ---- */
 
-static double along(const double row[4], const float p[3]) { return ((row[0] * p[0] + row[1] * p[1]) + row[2] * p[2]) + row[3]; }
+/* Where fragments are on the map, in texels, and their depths; of those behind the light, no numbers. */
+typedef struct placed {
+    double at[2][CHUNK], z[CHUNK];
+} placed;
+
+static void place_all(const cast_job *job, const muj_fragments *fragments, int32_t first, int32_t count, placed *out)
+{
+    const double (*row)[4] = job->view.rows;
+    const float *x = muj_places_of(fragments, 0) + first, *y = muj_places_of(fragments, 1) + first, *z = muj_places_of(fragments, 2) + first;
+    double size = job->picture->frame->shadow_size, scale = size / (size - 2);
+    for (int32_t i = 0; i < count; i++) {
+        double w = ((row[3][0] * x[i] + row[3][1] * y[i]) + row[3][2] * z[i]) + row[3][3], inverse = 1 / (w > 0 ? w : 0);
+        for (int c = 0; c < 2; c++)
+            out->at[c][i] = ((((row[c][0] * x[i] + row[c][1] * y[i]) + row[c][2] * z[i]) + row[c][3]) * inverse - 1) * scale;
+        out->z[i] = (((row[2][0] * x[i] + row[2][1] * y[i]) + row[2][2] * z[i]) + row[2][3]) * inverse;
+    }
+}
 
 /* Finds the texel that a fragment reads; 0 if it is lit whatever is there. The map is drawn inside a border, but read as a
  * whole (R266). */
-static int find_lookup(const cast_job *job, muj_fragment *fragment, lookup *out)
+static int find_lookup(const cast_job *job, const placed *in, int32_t i, uint8_t *mark, lookup *out)
 {
-    double size = job->picture->frame->shadow_size, scale = size / (size - 2), w = along(job->view.rows[3], fragment->place), at[2];
-    if (!(w > 0))
-        return 0;
-    double inverse = w == 1 ? 1 : 1 / w;
-    for (int c = 0; c < 2; c++) {
-        at[c] = (along(job->view.rows[c], fragment->place) * inverse - 1) * scale;
-        if (!(at[c] >= 1 && at[c] < size - 1))
+    double most = job->picture->frame->shadow_size - 1, z = in->z[i];
+    for (int c = 0; c < 2; c++)
+        if (!(in->at[c][i] >= 1 && in->at[c][i] < most))
             return 0;
-    }
-    double z = along(job->view.rows[2], fragment->place) * inverse;
-    *out = (lookup){z > 0 ? z < 1 ? z : 1 : 0, (int32_t)at[0], (int32_t)at[1], &fragment->shadowed};
+    *out = (lookup){(int32_t)((z > 0 ? z < 1 ? z : 1 : 0) * DEPTHS), (int16_t)in->at[0][i], (int16_t)in->at[1][i], mark};
     return 1;
 }
 
-/* Whether a triangle hides the light from a lookup: its depth is offset, and counted in steps, as the map's would be. */
-static int hides(const muj_record *record, double offset, const lookup *at)
+/* Whether a triangle covers the middle of a texel. */
+static int covers(const muj_record *record, int32_t x, int32_t y)
 {
-    if (at->x < record->x0 || at->x > record->x1 || at->y < record->y0 || at->y > record->y1)
+    if (x < record->x0 || x > record->x1 || y < record->y0 || y > record->y1)
         return 0;
-    int64_t dx = (int64_t)(at->x - record->x0) * MUJ_SUB + MUJ_SUB / 2, dy = (int64_t)(at->y - record->y0) * MUJ_SUB + MUJ_SUB / 2;
-    int64_t outside = 0;
+    int64_t dx = (int64_t)(x - record->x0) * MUJ_SUB + MUJ_SUB / 2, dy = (int64_t)(y - record->y0) * MUJ_SUB + MUJ_SUB / 2, outside = 0;
     for (int k = 0; k < 3; k++)
         outside |= (record->e[k] + record->a[k] * dx) + record->b[k] * dy;
-    if (outside < 0)
-        return 0;
-    double px = (double)dx * (1.0 / MUJ_SUB), py = (double)dy * (1.0 / MUJ_SUB);
-    double z = (record->z + (record->zx * px + record->zy * py)) - offset;
-    if (z + 0x1p-23 < at->z)
-        return 0;
-    z = z > 0 ? z < 1 ? z : 1 : 0;
-    return floor(z * DEPTHS + 0.5) / DEPTHS > at->z;
+    return outside >= 0;
+}
+
+/* The depth of a triangle at a texel's middle, offset, in steps: the map has the whole ones. */
+static double steps_at(const muj_record *record, double offset, int32_t x, int32_t y)
+{
+    double px = x - record->x0 + 0.5, py = y - record->y0 + 0.5, z = (record->z + (record->zx * px + record->zy * py)) - offset;
+    return (z > 1 ? 1 : z) * DEPTHS + 0.5;
 }
 
 static double offset_of(const muj_record *record)
@@ -125,29 +139,40 @@ static double offset_of(const muj_record *record)
     return OFFSET_FACTOR * (x > y ? x : y) + OFFSET_UNITS;
 }
 
+/* The records of a plane lie in it: if it is behind a lookup by more than errors, all are. */
 static int is_hidden_by_planes(const cast_job *job, const lookup *at)
 {
     const muj_record *planes = job->planes->data;
-    int hidden = 0;
-    for (size_t i = 0; i < job->planes->count && !hidden; i++)
-        hidden = hides(&planes[i], offset_of(&planes[i]), at);
-    return hidden;
+    size_t i = 0;
+    while (i < job->planes->count) {
+        const muj_record *plane = &planes[i++];
+        double steps = steps_at(plane, offset_of(plane), at->x, at->y);
+        if (steps >= (double)at->step + 1 && covers(plane, at->x, at->y))
+            return 1;
+        while (steps + 4 < (double)at->step && i < job->planes->count && planes[i].draw == plane->draw)
+            i++;
+    }
+    return 0;
 }
 
 static int list_band(const cast_job *job, int32_t band, e3d_array *out)
 {
-    const e3d_array *fragments = &job->fragments[band];
-    size_t size = muj_fragment_size(job->picture);
+    const muj_fragments *fragments = &job->fragments[band];
+    uint8_t *shadowed = fragments->shadowed.data;
+    placed places;
     out->count = 0;
-    if (!e3d_array_reserve(out, fragments->count / size + 1, sizeof(lookup)))
+    if (!e3d_array_reserve(out, (size_t)fragments->count + 1, sizeof(lookup)))
         return 0;
     lookup *next = out->data;
-    for (size_t k = 0; k < fragments->count; k += size) {
-        muj_fragment *fragment = (muj_fragment *)((uint8_t *)fragments->data + k);
-        if (fragment->shadowed & job->bit || !find_lookup(job, fragment, next))
+    for (int32_t i = 0, start = -CHUNK; i < fragments->count; i++) {
+        if (shadowed[i] & job->bit)
+            continue;
+        if (i - start >= CHUNK)
+            place_all(job, fragments, start = i, fragments->count - i < CHUNK ? fragments->count - i : CHUNK, &places);
+        if (!find_lookup(job, &places, i - start, &shadowed[i], next))
             continue;
         if (is_hidden_by_planes(job, next))
-            fragment->shadowed |= job->bit;
+            shadowed[i] |= job->bit;
         else
             next += job->occupied[next->y >> job->part_shift][next->x >> job->part_shift];
     }
@@ -201,14 +226,28 @@ static int32_t cell_of(const cast_job *job, int32_t x, int32_t y)
     return ((y - job->view.low[1]) >> job->shift) * job->cells[0] + ((x - job->view.low[0]) >> job->shift);
 }
 
+static int reserve_sorted(cast_job *job, size_t total)
+{
+    size_t room = total + 16; /* whole vectors may be read */
+    muj_shadow_memory *memory = job->memory;
+    if (!e3d_array_reserve(&memory->starts, (size_t)job->cells[0] * (size_t)job->cells[1] + 2, sizeof(int32_t)) ||
+        !e3d_array_reserve(&memory->sorted, 3 * room, sizeof(int32_t)) || !e3d_array_reserve(&memory->marks, total, sizeof(uint8_t *)))
+        return 0;
+    int32_t *numbers = memory->sorted.data;
+    memset(numbers + total, 0, 16 * sizeof *numbers);
+    memset(numbers + room + total, 0, 16 * sizeof *numbers);
+    memset(numbers + 2 * room + total, 0, 16 * sizeof *numbers);
+    job->lookups = (muj_lookups){numbers, numbers + room, numbers + 2 * room};
+    job->marks = memory->marks.data;
+    return 1;
+}
+
 static int sort_lookups(cast_job *job, size_t total)
 {
     size_t cells = (size_t)job->cells[0] * (size_t)job->cells[1];
-    if (!e3d_array_reserve(&job->memory->starts, cells + 2, sizeof(int32_t)) ||
-        !e3d_array_reserve(&job->memory->sorted, total, sizeof(lookup)))
+    if (!reserve_sorted(job, total))
         return 0;
     int32_t *starts = job->memory->starts.data;
-    lookup *sorted = job->memory->sorted.data;
     memset(starts, 0, (cells + 2) * sizeof *starts);
     for (int32_t band = 0; band < job->bands; band++) {
         const lookup *all = job->memory->lists[band].data;
@@ -219,27 +258,80 @@ static int sort_lookups(cast_job *job, size_t total)
         starts[i] += starts[i - 1];
     for (int32_t band = 0; band < job->bands; band++) {
         const lookup *all = job->memory->lists[band].data;
-        for (size_t i = 0; i < job->memory->lists[band].count; i++)
-            sorted[starts[cell_of(job, all[i].x, all[i].y) + 1]++] = all[i];
+        for (size_t i = 0; i < job->memory->lists[band].count; i++) {
+            int32_t to = starts[cell_of(job, all[i].x, all[i].y) + 1]++;
+            job->lookups.x[to] = all[i].x, job->lookups.y[to] = all[i].y, job->lookups.step[to] = all[i].step;
+            job->marks[to] = all[i].mark;
+        }
     }
     return 1;
 }
 
 /* ---- casters ---- */
 
+/* A step that no depth of the record exceeds. */
+static int32_t bound_of(const muj_record *record, double offset)
+{
+    double wide = record->x1 - record->x0 + 1, high = record->y1 - record->y0 + 1;
+    double z = record->z - offset + (record->zx > 0 ? record->zx * wide : 0) + (record->zy > 0 ? record->zy * high : 0);
+    return !(z < 1) ? DEPTHS : z > 0 ? (int32_t)(z * DEPTHS) + 1
+                                     : 1;
+}
+
+/* A record as many lookups are tested against it; 0 if it is too large for that. */
+static int set_test(const muj_record *record, double offset, muj_shadow_test *out)
+{
+    if (record->x1 - record->x0 > MUJ_COLUMN * 8 || record->y1 - record->y0 > MUJ_COLUMN * 8)
+        return 0;
+    *out = (muj_shadow_test){{record->x0, record->y0}, {record->x1, record->y1}, {0}, {0}, {0}, bound_of(record, offset)};
+    for (int k = 0; k < 3; k++) {
+        int64_t e = record->e[k] + (int64_t)(MUJ_SUB / 2) * ((int64_t)record->a[k] + record->b[k]);
+        out->across[k] = record->a[k], out->down[k] = record->b[k];
+        if (e >> 8 < -(1 << 30) || e >> 8 > 1 << 30 || abs(record->a[k]) > 1 << 19 || abs(record->b[k]) > 1 << 19)
+            return 0;
+        out->edge[k] = (int32_t)(e >> 8);
+    }
+    return 1;
+}
+
+/* Hides the light from lookups that a record covers. */
+static void hide(const cast_job *job, const muj_record *record, double offset, const int32_t *numbers, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        int32_t n = numbers[i];
+        uint8_t *mark = job->marks[n];
+        if (!(steps_at(record, offset, job->lookups.x[n], job->lookups.y[n]) >= (double)job->lookups.step[n] + 1))
+            continue;
+        if (job->is_alone)
+            job->lookups.step[n] = HIDDEN;
+        __atomic_store_n(mark, (uint8_t)(__atomic_load_n(mark, __ATOMIC_RELAXED) | job->bit), __ATOMIC_RELAXED);
+    }
+}
+
+static void cast_on_range(const cast_job *job, const muj_record *record, const muj_shadow_test *test, double offset, int32_t first, int32_t end)
+{
+    int32_t numbers[4 * CHUNK + 16];
+    for (; first < end; first += 4 * CHUNK) {
+        int32_t last = end - first < 4 * CHUNK ? end : first + 4 * CHUNK, count = 0;
+        if (test)
+            count = job->picture->kernels->cover(test, &job->lookups, first, last, numbers);
+        for (int32_t i = first; i < last && !test; i++)
+            if (covers(record, job->lookups.x[i], job->lookups.y[i]))
+                numbers[count++] = i;
+        hide(job, record, offset, numbers, count);
+    }
+}
+
 static void cast_record(const cast_job *job, const muj_record *record)
 {
     const int32_t *starts = job->memory->starts.data;
-    const lookup *sorted = job->memory->sorted.data;
     double offset = offset_of(record);
+    muj_shadow_test test;
+    int is_small = set_test(record, offset, &test);
     int32_t first = cell_of(job, record->x0, record->y0), last = cell_of(job, record->x0, record->y1);
     int32_t wide = cell_of(job, record->x1, record->y0) - first + 1;
     for (int32_t row = first; row <= last; row += job->cells[0])
-        for (int32_t i = starts[row]; i < starts[row + wide]; i++)
-            if (hides(record, offset, &sorted[i])) {
-                uint8_t *mark = sorted[i].mark;
-                __atomic_store_n(mark, (uint8_t)(__atomic_load_n(mark, __ATOMIC_RELAXED) | job->bit), __ATOMIC_RELAXED);
-            }
+        cast_on_range(job, record, is_small ? &test : NULL, offset, starts[row], starts[row + wide]);
 }
 
 static void cast_records(const cast_job *job, e3d_array *records)
@@ -250,43 +342,52 @@ static void cast_records(const cast_job *job, e3d_array *records)
     records->count = 0;
 }
 
-/* Whether a triangle surely covers no texel that is read: most do not, and need no record. */
-static int is_idle(const cast_job *job, const muj_vertex *const v[3])
+/* A step that no depth of a triangle without clipping exceeds. */
+static int32_t bound_of_corners(const muj_vertices *v, const int32_t corner[3])
+{
+    float most = v->z[corner[0]] > v->z[corner[1]] ? v->z[corner[0]] : v->z[corner[1]];
+    most = v->z[corner[2]] > most ? v->z[corner[2]] : most;
+    return !(most < 1) ? DEPTHS : most > 0 ? (int32_t)((double)most * DEPTHS) + 4
+                                           : 4;
+}
+
+/* Whether a triangle surely hides no texel that is read: most do not, and need no record. */
+static int is_idle(const cast_job *job, const muj_vertices *v, const int32_t corner[3])
 {
     const int32_t *starts = job->memory->starts.data;
-    int32_t low[2] = {v[0]->snapped_x, v[0]->snapped_y}, high[2] = {v[0]->snapped_x, v[0]->snapped_y};
-    for (int k = 1; k < 3; k++) {
-        low[0] = v[k]->snapped_x < low[0] ? v[k]->snapped_x : low[0], high[0] = v[k]->snapped_x > high[0] ? v[k]->snapped_x : high[0];
-        low[1] = v[k]->snapped_y < low[1] ? v[k]->snapped_y : low[1], high[1] = v[k]->snapped_y > high[1] ? v[k]->snapped_y : high[1];
-    }
+    int32_t numbers[CHUNK + 16];
+    muj_shadow_test test = {.bound = bound_of_corners(v, corner)};
     for (int c = 0; c < 2; c++) {
-        low[c] = (low[c] + MUJ_SUB / 2 - 1) >> 8, high[c] = (high[c] - MUJ_SUB / 2) >> 8;
-        low[c] = low[c] > job->view.low[c] ? low[c] : job->view.low[c], high[c] = high[c] < job->view.high[c] ? high[c] : job->view.high[c];
-        if (low[c] > high[c])
+        int32_t at[3] = {v->snapped[c][corner[0]], v->snapped[c][corner[1]], v->snapped[c][corner[2]]};
+        if (at[0] == MUJ_OUTSIDE || at[1] == MUJ_OUTSIDE || at[2] == MUJ_OUTSIDE)
+            return 0;
+        int32_t low = (muj_least(at) + MUJ_SUB / 2 - 1) >> 8, high = (muj_most(at) - MUJ_SUB / 2) >> 8;
+        test.low[c] = low > job->view.low[c] ? low : job->view.low[c], test.high[c] = high < job->view.high[c] ? high : job->view.high[c];
+        if (test.low[c] > test.high[c])
             return 1;
     }
-    int32_t first = cell_of(job, low[0], low[1]), last = cell_of(job, low[0], high[1]), wide = cell_of(job, high[0], low[1]) - first + 1;
+    int32_t first = cell_of(job, test.low[0], test.low[1]), last = cell_of(job, test.low[0], test.high[1]);
+    int32_t wide = cell_of(job, test.high[0], test.low[1]) - first + 1;
     for (int32_t row = first; row <= last; row += job->cells[0])
-        if (starts[row] != starts[row + wide])
-            return 0;
+        for (int32_t i = starts[row]; i < starts[row + wide]; i += CHUNK) {
+            int32_t end = starts[row + wide] - i < CHUNK ? starts[row + wide] : i + CHUNK;
+            if (job->picture->kernels->cover(&test, &job->lookups, i, end, numbers))
+                return 0;
+        }
     return 1;
 }
 
 static int cast_shape(const cast_job *job, const muj_draw *draw, muj_worker *worker)
 {
-    const e3d_muj_shape *shape = draw->shape;
     if (muj_is_outside(draw, &job->view))
         return 1;
-    if (!e3d_array_reserve(&worker->vertices, (size_t)shape->vertices, sizeof(muj_vertex)))
+    if (!muj_choose(job->picture->kernels, draw, &job->view, 0, worker))
         return 0;
-    const muj_vertex *vertices = worker->vertices.data;
-    muj_transform(draw, &job->view, worker->vertices.data);
-    for (int32_t t = 0; t < shape->triangles; t++) {
-        const int32_t *corner = shape->corners + 3 * (size_t)t;
-        const muj_vertex *v[3] = {vertices + corner[0], vertices + corner[1], vertices + corner[2]};
-        if (!(v[0]->outside | v[1]->outside | v[2]->outside) && is_idle(job, v))
+    const int32_t *chosen = worker->chosen.data;
+    for (size_t i = 0; i < worker->chosen.count; i++) {
+        if (is_idle(job, &worker->vertices, draw->shape->corners + 3 * (size_t)chosen[i]))
             continue;
-        muj_set_up(&job->view, 0, draw, 0, vertices, t, t + 1, &worker->records);
+        muj_set_up(&job->view, 0, draw, 0, chosen[i], worker);
         cast_records(job, &worker->records);
     }
     return 1;
@@ -328,10 +429,11 @@ static int prepare_memory(muj_shadow_memory *memory, int32_t threads, int32_t ba
     return 1;
 }
 
-int muj_cast(const muj_picture *picture, int32_t k, const e3d_array *fragments, int32_t bands, int32_t threads, muj_shadow_memory *memory)
+int muj_cast(const muj_picture *picture, int32_t k, const muj_fragments *fragments, int32_t bands, int32_t threads, muj_shadow_memory *memory)
 {
     cast_job job = {.picture = picture, .memory = memory, .fragments = fragments, .planes = &memory->planes, .bit = (uint8_t)(1 << k)};
     job.bands = bands;
+    job.is_alone = threads == 1;
     job.count = (int32_t)(picture->draws.count + picture->blended.count);
     muj_set_light_view(picture->frame, &picture->frame->lights[picture->shadow_lights[k]], &job.view);
     if (!prepare_memory(memory, threads, bands) || !find_casters(&job))
@@ -350,10 +452,8 @@ int muj_cast(const muj_picture *picture, int32_t k, const e3d_array *fragments, 
 
 void muj_free_shadow_memory(muj_shadow_memory *memory)
 {
-    for (int32_t w = 0; w < memory->worker_count; w++) {
-        e3d_array_free(&memory->workers[w].records);
-        e3d_array_free(&memory->workers[w].vertices);
-    }
+    for (int32_t w = 0; w < memory->worker_count; w++)
+        muj_free_worker(&memory->workers[w]);
     for (int32_t i = 0; i < memory->list_count; i++)
         e3d_array_free(&memory->lists[i]);
     free(memory->workers);
@@ -361,4 +461,5 @@ void muj_free_shadow_memory(muj_shadow_memory *memory)
     e3d_array_free(&memory->planes);
     e3d_array_free(&memory->sorted);
     e3d_array_free(&memory->starts);
+    e3d_array_free(&memory->marks);
 }

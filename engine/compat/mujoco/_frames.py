@@ -89,7 +89,6 @@ def _draw_eye(scene: Any, context: MjrContext, width: int, height: int, eye: int
         model.samples,
         prepared.ambient,
         prepared.flags,
-        0,
         out,
     )
     context.view(scene).warn_of_labels()
@@ -137,7 +136,6 @@ def draw_segments(
         1,
         0.0,
         prepared.flags,
-        0,
         None,
         geom,
         depth,

@@ -23,7 +23,7 @@ _ARRAYS_OF_LIGHTS = dict.fromkeys(
 )
 _INTEGERS_OF_LIGHTS = ("type",)
 _FLOATS_OF_LIGHTS = ("exponent", "cutoff")
-_BYTES = ("castshadow",)  # of both
+_BYTES = ("castshadow", "directional")  # the second: of lights, before they had types
 _TEXTS = ("label",)  # of geoms: its first byte tells whether there is one
 
 
@@ -61,7 +61,7 @@ def _layout(items: Any, arrays: dict, integers: tuple, floats: tuple) -> tuple[n
     size = _address(items[1].pos) - start
     fields: list[tuple[str, Any, int]] = []
     for name, length in arrays.items():
-        if hasattr(items[0], name):
+        if hasattr(type(items[0]), name):
             offset = _address(getattr(items[0], name)) - start
             fields.append((name, (np.float32, length), offset))
     for names, marks, kind in (
@@ -71,7 +71,7 @@ def _layout(items: Any, arrays: dict, integers: tuple, floats: tuple) -> tuple[n
         (_TEXTS, ("a label", "another"), np.uint8),
     ):
         for name in names:
-            if hasattr(items[0], name):
+            if hasattr(type(items[0]), name):
                 offset = _scalar_offset(items, name, marks, kind, start, size)
                 fields.append((name, kind, offset))
     first = min(offset for _, _, offset in fields)
@@ -96,7 +96,7 @@ def _layouts() -> tuple[tuple[np.dtype, int], tuple[np.dtype, int]]:
         for item in pair[:2]:  # the memory is not cleared before its first use
             item.pos[:] = 0
             for name in (*_INTEGERS_OF_GEOMS, *_FLOATS_OF_GEOMS, *_FLOATS_OF_LIGHTS, *_BYTES):
-                if hasattr(item, name):
+                if hasattr(type(item), name):
                     setattr(item, name, 0)
     return (
         _layout(geoms, _ARRAYS_OF_GEOMS, _INTEGERS_OF_GEOMS, _FLOATS_OF_GEOMS),

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from decimal import Decimal
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from ..._native.mujoco import BUILTINS, NativeModel
+from ..._native.mujoco import BUILTINS, NativeModel, halve
 from ...errors import warn
 from . import _unit_shapes
 from ._unit_shapes import Triangles, grid_lines
@@ -49,30 +50,21 @@ def _code_limits(srgb: bool) -> np.ndarray:
     return (meaning[1:] + meaning[:-1]) / 2
 
 
-def _halved(level: np.ndarray, axis: int) -> np.ndarray:
-    """Return a level that is read between its texels, with half as many along an axis."""
-    size = level.shape[axis]
-    if size == 1:
-        return level
-    half = size // 2
-    at = (np.arange(half) + 0.5) * (size / half) - 0.5
-    low = np.floor(at).astype(int)
-    share = (at - low).reshape([-1 if k == axis else 1 for k in range(4)])
-    high = np.minimum(low + 1, size - 1)
-    return level.take(low, axis) * (1 - share) + level.take(high, axis) * share
-
-
 def _levels(texels: np.ndarray, srgb: bool) -> list[np.ndarray]:
-    """Return levels, each half as large, (faces, H, W, 4) uint8."""
-    levels = [np.ascontiguousarray(texels)]
+    """Return levels, each half as large, (faces, H, W, 4) uint8, close together in memory."""
+    faces, height, width, _ = texels.shape
+    sizes = [(height, width)]
+    while max(sizes[-1]) > 1:
+        sizes.append((max(sizes[-1][0] // 2, 1), max(sizes[-1][1] // 2, 1)))
+    memory = np.empty(sum(faces * h * w * 4 for h, w in sizes), np.uint8)
+    levels, end = [], 0
+    for h, w in sizes:
+        begin, end = end, end + faces * h * w * 4
+        levels.append(memory[begin:end].reshape(faces, h, w, 4))
+    levels[0][...] = texels
     meaning, limits = _meaning(srgb).astype(np.float64), _code_limits(srgb)
-    while max(levels[-1].shape[1:3]) > 1:
-        codes = levels[-1]
-        values = np.concatenate([meaning[codes[..., :3]], codes[..., 3:] / 255.0], axis=-1)
-        values = _halved(_halved(values, 1), 2)
-        colors = np.searchsorted(limits, values[..., :3], side="right")
-        alpha = np.floor(values[..., 3:] * 255 + 0.5)
-        levels.append(np.concatenate([colors, alpha], axis=-1).astype(np.uint8))
+    for level, smaller in pairwise(levels):
+        halve(level, meaning, limits, smaller)
     return levels
 
 

@@ -26,6 +26,9 @@ _AS_THEY_ARE = (
 )
 
 
+_Row = list[float]
+
+
 class SceneView:
     """The memory of one scene, read in place.
 
@@ -39,15 +42,16 @@ class SceneView:
         self._geoms = view_geoms(scene)
         self._lights = view_lights(scene)
 
-    def geom_ids(self) -> np.ndarray:
-        """Return the objid and objtype of each geom, and (-1, -1) at the end, (N + 1, 2) int32."""
+    def objects_of(self, numbers: np.ndarray) -> np.ndarray:
+        """Return the objid and objtype of geoms, (..., 2) int32; of number -1 both are -1."""
         count = self.scene.ngeom
-        out = np.full((count + 1, 2), -1, np.int32)
-        out[:count, 0], out[:count, 1] = (
+        table = np.full((count + 1, 2), -1, np.int32)
+        table[:count, 0], table[:count, 1] = (
             self._geoms["objid"][:count],
             self._geoms["objtype"][:count],
         )
-        return out
+        pairs = table.view(np.int64)[:, 0].take(numbers, mode="wrap")  # a pair at a time
+        return pairs.view(np.int32).reshape(*numbers.shape, 2)
 
     def segment_ids(self) -> np.ndarray:
         """Return the segid of each geom, (N,) int32."""
@@ -86,15 +90,16 @@ class SceneView:
         """Return the lights as the core reads them, and the ambient light of scenes without any."""
         if none:
             return np.zeros(0, LIGHT), 0.0
-        from_ = self._lights[: min(self.scene.nlight, LIGHTS)]
         every = self._lights[: self.scene.nlight]
-        supported = (every["type"] == _DIRECTIONAL) | (every["type"] == _SPOT)
+        named = every.dtype.names or ()
+        kind = every["type"] if "type" in named else every["directional"].astype(np.int32)
+        supported = (kind == _DIRECTIONAL) | (kind == _SPOT)
         if not supported.all():
             warn(
                 "lights of the types point and image are not drawn, as in MuJoCo's classic renderer"
             )
         ambient = 0.0 if supported.any() else 0.3
-        from_ = from_[supported[: len(from_)]]
+        from_, kind = (each[:LIGHTS][supported[:LIGHTS]] for each in (every, kind))
         out = np.zeros(len(from_), LIGHT)
         for name in (
             "pos",
@@ -107,9 +112,9 @@ class SceneView:
             "castshadow",
         ):
             out[name] = from_[name]
-        out["is_directional"] = from_["type"] == _DIRECTIONAL
+        out["is_directional"] = kind == _DIRECTIONAL
         for k, light in enumerate(from_):
-            if light["type"] == _DIRECTIONAL:
+            if kind[k] == _DIRECTIONAL:
                 out["cutoff_cosine"][k], out["shadow_reach"][k] = -2.0, model.shadow_clip
             else:
                 cutoff = float(light["cutoff"])
@@ -239,13 +244,14 @@ def camera_of(scene: Any, aspect: float, which: int = -1) -> tuple[np.ndarray, b
     """
     eyes = scene.camera if which < 0 else (scene.camera[which],)
     count = len(eyes)
-    position = sum(np.array(eye.pos, np.float64) for eye in eyes) / count
-    forward = _unit(sum(np.array(eye.forward, np.float64) for eye in eyes))
-    up = sum(np.array(eye.up, np.float64) for eye in eyes)
-    up = _unit(up - forward * _dot(forward, up))
+    position = [sum(v) / count for v in zip(*(eye.pos.tolist() for eye in eyes), strict=True)]
+    forward = _unit([sum(v) for v in zip(*(eye.forward.tolist() for eye in eyes), strict=True)])
+    up = [sum(v) for v in zip(*(eye.up.tolist() for eye in eyes), strict=True)]
+    along = _inner(up, forward)
+    up = _unit([u - f * along for u, f in zip(up, forward, strict=True)])
     right = _cross(forward, up)
     bottom, top, near, far, center, half = (
-        sum(float(getattr(eye, f"frustum_{name}")) for eye in eyes) / count
+        sum(getattr(eye, f"frustum_{name}") for eye in eyes) / count
         for name in ("bottom", "top", "near", "far", "center", "width")
     )
     if near < _LEAST_NEAR:
@@ -253,9 +259,12 @@ def camera_of(scene: Any, aspect: float, which: int = -1) -> tuple[np.ndarray, b
             "the scene's camera has no near plane: fill the scene by update_scene before"
         )
     half = half or 0.5 * aspect * (top - bottom)
-    rows, eye = _transformed(scene, np.stack([right, up, forward]), position)
+    rows = [[*axis, -_inner(axis, position)] for axis in (right, up, forward)]
+    eye = position
+    if scene.enabletransform:
+        rows, eye = _transformed(scene, rows, position)
     sides = center - half, center + half, bottom, top
-    numbers = [*rows.ravel(), *eye, *sides, near, far, *perspective_depth(near, far)]
+    numbers = [*rows[0], *rows[1], *rows[2], *eye, *sides, near, far, *perspective_depth(near, far)]
     return np.array(numbers, np.float64), bool(eyes[0].orthographic)
 
 
@@ -270,37 +279,33 @@ def perspective_depth(near: float, far: float) -> tuple[np.float32, np.float32]:
     return scale, np.float32(-0.5) * (-(np.float32(2) * f * n) / (f - n))
 
 
-def _transformed(
-    scene: Any, axes: np.ndarray, position: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return eye_from_world, (3, 4), and the eye, with the scene's own transformation of models."""
-    rows = np.concatenate([axes, -_dot(axes, position)[:, None]], axis=1)
-    if not scene.enabletransform:
-        return rows, position
-    w, x, y, z = (float(v) for v in scene.rotate)
+def _transformed(scene: Any, rows: list[_Row], position: _Row) -> tuple[list[_Row], _Row]:
+    """Return eye_from_world, three rows of four, and the eye, with the scene's transformation."""
+    w, x, y, z = scene.rotate.tolist()
     length = math.sqrt(w * w + x * x + y * y + z * z)
     w, x, y, z = (v / length for v in (w, x, y, z))
-    turn = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-    move, scale = np.array(scene.translate, np.float64), float(scene.scale)
-    out = np.empty((3, 4))
-    for c in range(3):
-        out[:, c] = _dot(rows[:, :3], turn[:, c]) * scale
-    out[:, 3] = rows[:, 3] + _dot(rows[:, :3], move)
-    away = position - move
-    return out, np.array([_dot(turn[:, c], away) / scale for c in range(3)])
+    columns = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+        [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+        [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    move, scale = scene.translate.tolist(), float(scene.scale)
+    out = [
+        [*(_inner(row, column) * scale for column in columns), row[3] + _inner(row, move)]
+        for row in rows
+    ]
+    away = [p - m for p, m in zip(position, move, strict=True)]
+    return out, [_inner(column, away) / scale for column in columns]
 
 
-def _unit(v: np.ndarray) -> np.ndarray:
-    return v / max(math.sqrt(_dot(v, v)), 1e-15)
+def _inner(a: _Row, b: _Row) -> float:
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
 
 
-def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.array(
-        [a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3)]
-    )
+def _unit(v: _Row) -> _Row:
+    length = max(math.sqrt(_inner(v, v)), 1e-15)
+    return [c / length for c in v]
+
+
+def _cross(a: _Row, b: _Row) -> _Row:
+    return [a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3)]

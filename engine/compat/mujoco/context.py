@@ -11,12 +11,14 @@ from ..._native.mujoco import NativePicture
 from ...base.numbers import shown
 from ...base.validation import whole_number
 from ...errors import InvalidArgumentError
+from ...rendering.backend_selection import resolve_backend, resolve_threads
 from ._model import Model
 from ._scenes import SceneView
 
 _OFFSCREEN = 1  # of mjtFramebuffer
 _ZERO_NEAR = 0  # of mjtDepthMap
 _MOST_AUX = 10
+_MOST_FONT_SCALE = 300  # the largest of mjtFontScale
 _MOST_PIXELS = 1 << 16  # of a side
 
 
@@ -26,6 +28,33 @@ def check_model(model: Any) -> None:
 
     if not isinstance(model, mujoco.MjModel):
         raise InvalidArgumentError(f"model must be a mujoco.MjModel, not {shown(model)}")
+
+
+def check_context(context: Any) -> None:
+    """Raise an InvalidArgumentError unless something is a context of this package."""
+    if not isinstance(context, MjrContext):
+        raise InvalidArgumentError(f"con must be an MjrContext of engine3d, not {shown(context)}")
+
+
+def check_scene(scene: Any) -> None:
+    """Raise an InvalidArgumentError unless something is an MjvScene."""
+    import mujoco
+
+    if not isinstance(scene, mujoco.MjvScene):
+        raise InvalidArgumentError(f"scn must be a mujoco.MjvScene, not {shown(scene)}")
+
+
+def check_numbers(array: Any, name: str) -> None:
+    """Raise an InvalidArgumentError unless something is an array of numbers."""
+    if not isinstance(array, np.ndarray):
+        raise InvalidArgumentError(f"{name} must be an array of NumPy, not {shown(array)}")
+    if array.dtype.kind not in "biufc":
+        raise InvalidArgumentError(f"{name} must hold numbers, not {array.dtype}")
+
+
+def font_scale_of(value: Any, name: str) -> int:
+    """Return a checked mjtFontScale as a number."""
+    return whole_number(getattr(value, "value", value), name, 0, _MOST_FONT_SCALE)
 
 
 class GLContext:
@@ -55,8 +84,8 @@ class MjrContext:
     ----------
     model : mujoco.MjModel, optional
         Its meshes, height fields, textures, and ``vis`` are copied, as by MuJoCo's context.
-    fontscale : int
-        Of mjtFontScale.
+    fontscale : mujoco.mjtFontScale or int
+        Not used, since text is not drawn.
 
     Attributes
     ----------
@@ -67,8 +96,8 @@ class MjrContext:
         far plane.
     """
 
-    def __init__(self, model: Any = None, fontscale: int = 150) -> None:
-        self.fontScale = int(fontscale)
+    def __init__(self, model: Any = None, fontscale: Any = 150) -> None:
+        self.fontScale = font_scale_of(fontscale, "fontscale")
         self.currentBuffer = _OFFSCREEN
         self.readDepthMap = _ZERO_NEAR
         self.readPixelFormat = 6407  # GL_RGB
@@ -78,7 +107,7 @@ class MjrContext:
             np.zeros(_MOST_AUX, np.int32) for _ in range(3)
         )
         self.lock = threading.Lock()
-        self._picture: NativePicture | None = NativePicture()
+        self._picture: NativePicture | None = NativePicture(resolve_backend(), resolve_threads())
         self._view: SceneView | None = None
         self._colors: np.ndarray | None = None
         self._model: Model | None = None

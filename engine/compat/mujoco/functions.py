@@ -8,15 +8,22 @@ from typing import Any
 import numpy as np
 
 from ...base.numbers import shown
+from ...base.validation import whole_number
 from ...errors import InvalidArgumentError, warn
 from ._frames import Prepared, draw_colors, draw_segments, is_segmented, prepare, segment_colors
+from ._model import Model
 from ._scenes import camera_of
-from .context import MjrContext
+from .context import MjrContext, check_context, check_model, check_numbers, check_scene
 
 _ZERO_FAR = 1  # of mjtDepthMap
 
 
 def _clipped(viewport: Any, con: MjrContext) -> tuple[int, int, int, int]:
+    import mujoco
+
+    check_context(con)
+    if not isinstance(viewport, mujoco.MjrRect):
+        raise InvalidArgumentError(f"viewport must be a mujoco.MjrRect, not {shown(viewport)}")
     left, bottom = int(viewport.left), int(viewport.bottom)
     width, height = int(viewport.width), int(viewport.height)
     if left < 0 or bottom < 0 or left + width > con.offWidth or bottom + height > con.offHeight:
@@ -37,6 +44,7 @@ def mjr_render(viewport: Any, scn: Any, con: MjrContext) -> None:
     con : MjrContext
     """
     rectangle = left, bottom, width, height = _clipped(viewport, con)
+    check_scene(scn)
     if width <= 0 or height <= 0:
         return
     with con.lock:
@@ -90,20 +98,21 @@ def mjr_readPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None
 
 
 def _fill(out: np.ndarray, values: np.ndarray, name: str) -> None:
-    if not isinstance(out, np.ndarray):
-        raise InvalidArgumentError(f"{name} must be an array of NumPy, not {shown(out)}")
     out[...] = values.reshape(_checked_pixels(out, values.size, name).shape)
 
 
 def _checked_pixels(array: np.ndarray, size: int, name: str) -> np.ndarray:
+    check_numbers(array, name)
     if array.size != size:
         raise InvalidArgumentError(f"{name} has {array.size} elements: the viewport has {size}")
     return array
 
 
-def mjr_setBuffer(framebuffer: int, con: MjrContext) -> None:
+def mjr_setBuffer(framebuffer: Any, con: MjrContext) -> None:
     """Say where to draw. There is an offscreen buffer only."""
-    if int(framebuffer) == 0:
+    check_context(con)
+    framebuffer = getattr(framebuffer, "value", framebuffer)
+    if whole_number(framebuffer, "framebuffer", 0, 1) == 0:
         warn("there is no window to draw to: pictures go to the offscreen buffer")
 
 
@@ -113,6 +122,7 @@ def mjr_restoreBuffer(con: MjrContext) -> None:
 
 def mjr_resizeOffscreen(width: int, height: int, con: MjrContext) -> None:
     """Set the size of the buffer; what it showed is lost."""
+    check_context(con)
     with con.lock:
         con.resize(width, height)
 
@@ -121,22 +131,29 @@ def mjr_maxViewport(con: MjrContext) -> Any:
     """Return the rectangle of the whole buffer."""
     import mujoco
 
+    check_context(con)
     return mujoco.MjrRect(0, 0, con.offWidth, con.offHeight)
 
 
 def mjr_uploadMesh(m: Any, con: MjrContext, meshid: int) -> None:
     """Read a mesh of the model again."""
-    con.model.upload_mesh(_checked(meshid, m.nmesh, "mesh"))
+    _model_of(m, con).upload_mesh(_checked(meshid, m.nmesh, "mesh"))
 
 
 def mjr_uploadHField(m: Any, con: MjrContext, hfieldid: int) -> None:
     """Read a height field of the model again."""
-    con.model.upload_hfield(_checked(hfieldid, m.nhfield, "height field"))
+    _model_of(m, con).upload_hfield(_checked(hfieldid, m.nhfield, "height field"))
 
 
 def mjr_uploadTexture(m: Any, con: MjrContext, texid: int) -> None:
     """Read a texture of the model again."""
-    con.model.upload_texture(_checked(texid, m.ntex, "texture"))
+    _model_of(m, con).upload_texture(_checked(texid, m.ntex, "texture"))
+
+
+def _model_of(model: Any, con: MjrContext) -> Model:
+    check_model(model)
+    check_context(con)
+    return con.model
 
 
 def _checked(number: int, count: int, what: str) -> int:
@@ -164,7 +181,7 @@ def mjr_drawPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None
     left, bottom, width, height = _clipped(viewport, con)
     if rgb is not None:
         out = con.colors[bottom : bottom + height, left : left + width]
-        out[...] = _checked_pixels(np.asarray(rgb), out.size, "rgb").reshape(out.shape)
+        out[...] = _checked_pixels(rgb, out.size, "rgb").reshape(out.shape)
     if depth is not None:
         warn("mjr_drawPixels writes colours only")
 

@@ -21,6 +21,19 @@ _OF_DM_CONTROL = {
     "dm_control._render.pyopengl.osmesa_renderer": "OSMesaContext",
     "dm_control._render.glfw_renderer": "GLFWContext",
 }
+#: The same of robosuite.
+_OF_ROBOSUITE = {
+    "robosuite.renderers.context.egl_context": "EGLGLContext",
+    "robosuite.renderers.context.osmesa_context": "OSMesaGLContext",
+    "robosuite.renderers.context.glfw_context": "GLFWGLContext",
+}
+
+
+class _DeviceContext(GLContext):
+    """A context as robosuite makes it: for a device, which does not matter here."""
+
+    def __init__(self, max_width: int, max_height: int, device_id: int = -1) -> None:
+        super().__init__(max_width, max_height)
 
 
 def install() -> None:
@@ -54,6 +67,9 @@ def install() -> None:
             if module is not None:
                 setattr(module, name, value)
     _install_for_dm_control()
+    for name, made in _OF_ROBOSUITE.items():
+        module = sys.modules[name] = ModuleType(name, "A context without OpenGL.")
+        setattr(module, made, _DeviceContext)
 
 
 def _platform_module(name: str) -> ModuleType:

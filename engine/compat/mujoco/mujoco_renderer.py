@@ -9,10 +9,10 @@ import numpy as np
 
 from ...base.numbers import shown
 from ...base.validation import whole_number
-from ...errors import InvalidArgumentError
+from ...errors import InvalidArgumentError, OutOfMemoryError
 from ._frames import draw_colors, draw_segments
 from ._scenes import perspective_depth
-from .context import MjrContext, check_model
+from .context import MjrContext, check_model, check_numbers, font_scale_of
 
 _FONT_SCALE = 150
 _MOST_GEOMS = 2**31 - 1
@@ -37,6 +37,8 @@ class Renderer:
     ------
     InvalidArgumentError
         Something is of another type; a size is less than 1.
+    OutOfMemoryError
+        A scene of so many geoms has no room.
     ValueError
         The size is larger than the model's offscreen buffer.
     """
@@ -57,11 +59,15 @@ class Renderer:
         self._width = _checked_size("width", width, model.vis.global_.offwidth)
         self._height = _checked_size("height", height, model.vis.global_.offheight)
         max_geom = whole_number(max_geom, "max_geom", 0, _MOST_GEOMS)
+        scale = font_scale_of(font_scale, "font_scale")
         self._model = model
-        self._scene = mujoco.MjvScene(model=model, maxgeom=max_geom)
+        try:
+            self._scene = mujoco.MjvScene(model=model, maxgeom=max_geom)
+        except mujoco.FatalError as error:
+            raise OutOfMemoryError(f"no memory for a scene of {max_geom} geoms: {error}") from None
         self._scene_option = mujoco.MjvOption()
         self._rect = mujoco.MjrRect(0, 0, self._width, self._height)
-        self._mjr_context = MjrContext(model, int(getattr(font_scale, "value", font_scale)))
+        self._mjr_context = MjrContext(model, scale)
         self._mjr_context.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
         self._depth_rendering = self._segmentation_rendering = False
 
@@ -120,10 +126,16 @@ class Renderer:
         """
         import mujoco
 
+        if not isinstance(data, mujoco.MjData):
+            raise InvalidArgumentError(f"data must be a mujoco.MjData, not {shown(data)}")
         if not isinstance(camera, mujoco.MjvCamera):
             camera = self._camera(camera)
         category = mujoco.mjtCatBit.mjCAT_ALL.value
-        option = scene_option or self._scene_option
+        option = self._scene_option if scene_option is None else scene_option
+        if not isinstance(option, mujoco.MjvOption):
+            raise InvalidArgumentError(
+                f"scene_option must be a mujoco.MjvOption, not {shown(option)}"
+            )
         mujoco.mjv_updateScene(self._model, data, option, None, camera, category, self._scene)
 
     def _camera(self, wanted: int | str) -> Any:
@@ -191,8 +203,7 @@ class Renderer:
         return out
 
     def _check_out(self, out: np.ndarray) -> None:
-        if not isinstance(out, np.ndarray):
-            raise InvalidArgumentError(f"out must be an array of NumPy, not {shown(out)}")
+        check_numbers(out, "out")
         channels = () if self._depth_rendering else (2,) if self._segmentation_rendering else (3,)
         shape = self._height, self._width, *channels
         if out.shape != shape:
@@ -219,7 +230,7 @@ class Renderer:
         size = self._width, self._height
         numbers = draw_segments(self._scene, context, *size, numbers=True, depths=False)[0]
         assert numbers is not None
-        return context.view(self._scene).geom_ids()[numbers]
+        return context.view(self._scene).objects_of(numbers)
 
     def close(self) -> None:
         """Free the memory; arrays that were returned stay valid."""

@@ -244,7 +244,7 @@ typedef struct drawing {
 static uint64_t hash_drawn(const void *input, e3d_backend backend, int32_t threads)
 {
     const drawing *drawn = input;
-    (void)backend; /* no instruction set is chosen */
+    drawn->scene->frame.backend = backend;
     return drawn->memory ? draw(drawn->scene, threads, drawn->memory) : 0;
 }
 
@@ -253,7 +253,7 @@ outcome compare_mujoco(random_stream r, const run_plan *plan, const char *title)
     static scene s;
     const drawing drawn = {&s, e3d_muj_memory_new()};
     set_scene(&r, &s);
-    outcome result = compare_thread_counts(hash_drawn, &drawn, plan, title);
+    outcome result = compare_hashes(hash_drawn, &drawn, plan, title);
     e3d_muj_memory_free(drawn.memory);
     return result;
 }

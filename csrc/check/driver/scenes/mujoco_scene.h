@@ -1,7 +1,7 @@
 /* Random and hostile pictures in MuJoCo's manner for the driver.
  *
  * In:  a stream of random numbers.
- * Out: the hash of their colours, or of geoms and depths; whether every thread count gave it.
+ * Out: the hash of their colours, or of geoms and depths; whether every backend and thread count gave it.
  */
 #pragma once
 

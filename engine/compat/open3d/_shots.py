@@ -19,7 +19,7 @@ from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 from ...rendering.options import MAX_LINE
 from ...rendering.renderer import Renderer
-from ._parts import WIRE, Cloud, Part, Surface
+from ._geometry_parts import WIRE, Cloud, Part, Surface
 from ._phong import Lighting, phong, turned_to
 from ._texels import texels
 

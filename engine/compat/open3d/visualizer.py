@@ -7,9 +7,9 @@ import numpy as np
 from ...base import linalg
 from ...base.image_size import check_size
 from ...errors import InvalidArgumentError, warn
+from ._geometry_parts import Part, kind_of, parts_of
 from ._keys import CONTROL, PRESS, RELEASE, SHIFT, press
 from ._loading import load
-from ._parts import Part, kind_of, parts_of
 from ._phong import Lighting
 from ._shots import Drawer, Shot
 from .captures import Captures

@@ -335,3 +335,28 @@ def test_frames_that_were_written_to_do_no_harm():
         weights[random.random(weights.shape[:2]) < 0.2] = (np.nan, np.inf, 1e38)
     for flow in (first.flow_to(second), second.flow_to(first)):
         assert np.isfinite(flow.vectors).all() and not flow.vectors[~flow.known].any()
+
+
+LENSES = [
+    e3d.FisheyeCamera(60.0, 60.0, SIZE[0] / 2, SIZE[1] / 2, (0.02, -0.01, 0.0, 0.0)),
+    e3d.BrownConradyCamera(90.0, 90.0, SIZE[0] / 2, SIZE[1] / 2, (-0.1, 0.02, 0.001, 0.001)),
+    e3d.EquirectangularCamera(),
+]
+
+
+@pytest.mark.parametrize("lens", LENSES, ids=lambda lens: type(lens).__name__)
+def test_flow_through_a_lens_is_between_its_own_pixels(lens):
+    moving = MovingScene()
+    moving.at(0.2)
+    outputs = ("world_position", *Moment.OUTPUTS)
+    poses = [e3d.look_at(eye, (0, 0, 0)) for eye in ((0.4, 0.7, 5.0), (0.5, 0.7, 4.9))]
+    with e3d.Renderer(SIZE, samples=1) as renderer:
+        first, second = (
+            renderer.render(moving.scene, (lens, pose), outputs=outputs) for pose in poses
+        )
+        flow = Moment(first, moving.scene).flow_to(Moment(second, moving.scene))
+    shown = first.object_id >= 0
+    points = first.world_position[shown]
+    moved = second.project(points)[0] - first.project(points)[0]
+    assert shown.sum() > 1000
+    assert np.abs(moved - flow.vectors[shown]).max() < 1e-5

@@ -65,6 +65,8 @@ def test_a_stereo_camera_is_a_pinhole_camera_with_a_baseline():
         flat.render(renderer, scene, POSE)
     with pytest.raises(e3d.InvalidArgumentError, match="pinhole"):
         flat.disparity([1.0], SIZE)
+    with pytest.raises(e3d.InvalidArgumentError, match="pinhole camera, whose pair is rectified"):
+        StereoCamera(e3d.EquirectangularCamera(), 0.1)
     for baseline in (0.0, -1.0, np.inf, "wide"):
         with pytest.raises(e3d.InvalidArgumentError, match="baseline"):
             StereoCamera(LENS, baseline)

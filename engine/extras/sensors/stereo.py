@@ -19,6 +19,7 @@ from ...base.numbers import floats
 from ...base.validation import CheckedAttribute, Closed, NumberAttribute, matrix4, positive
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import Camera
+from ...model.scene.lenses.lens_camera import LensCamera
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 from ...rendering.options import OptionKeywords, RenderOptions, checked_options
@@ -55,6 +56,10 @@ class StereoPair:
 def _camera(value: Camera, what: str) -> Camera:
     if not isinstance(value, Camera):
         raise InvalidArgumentError(f"{what} must be a Camera, not {type(value).__name__}")
+    if isinstance(value, LensCamera):
+        raise InvalidArgumentError(
+            f"{what} must be a pinhole camera, whose pair is rectified, not {type(value).__name__}"
+        )
     return value
 
 

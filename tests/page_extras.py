@@ -2,7 +2,8 @@
 
 from importlib.util import find_spec
 
-EXTRAS = ("build123d", "matplotlib", "meshio", "mujoco", "open3d", "pandas", "pyvista", "trimesh")
+EXTRAS = ("build123d", "matplotlib", "meshio", "mujoco", "open3d", "pandas")
+EXTRAS += ("pybullet", "pyvista", "trimesh")
 
 
 def missing_extra(text):

@@ -2,11 +2,9 @@
 Optical flow
 ============
 
-This draws two moments of a moving teapot, and shows how far each pixel moves between them, and
-what the second picture hides.
+This shows how far each pixel moves between two moments, and what the second picture hides.
 
-A ``Moment`` keeps what a frame shows, and where everything was. The colour tells the direction of
-the motion, its strength the speed.
+A ``Moment`` keeps what a frame shows. Colours tell the direction of motion, their strength speed.
 """
 
 from importlib.resources import files
@@ -19,7 +17,7 @@ from engine3d.sensors import Moment
 
 scene = e3d.Scene(background="lightsteelblue")
 scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.7)))
-scene.add(e3d.plane(16.0), translation=(0.0, -0.01, 0.0))
+scene.add(e3d.plane(16.0))
 teapot = scene.add(e3d.load_mesh(files("engine3d.data") / "models" / "teapot.obj"))
 lens, pose = e3d.PerspectiveCamera(0.7), e3d.look_at((3.0, 5.0, 9.0), (0.0, 1.0, 0.0))
 
@@ -31,8 +29,6 @@ with e3d.Renderer((400, 300)) as renderer:
     second = Moment(renderer.render(scene, (lens, pose), outputs=outputs), scene)
 
 flow = first.flow_to(second)
-u, v = flow.vectors[flow.known].T
-print(f"{np.hypot(u, v).max():.1f} pixels at most; hidden: {flow.occluded.mean():.1%}")
 picture = Image.fromarray(flow.colors())
 
 # %%

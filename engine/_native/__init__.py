@@ -17,21 +17,19 @@ from os.path import dirname, exists, join
 from typing import Any
 
 MODULES = (
-    *(
-        "canvas",
-        "drawing",
-        "images",
-        "lens",
-        "loaders",
-        "mujoco",
-        "navigation",
-        "pybullet",
-        "pyrender",
-        "rasterizer",
-        "scene_graph",
-        "ui",
-        "writers",
-    ),
+    "canvas",
+    "drawing",
+    "images",
+    "lens",
+    "loaders",
+    "mujoco",
+    "navigation",
+    "pybullet",
+    "pyrender",
+    "rasterizer",
+    "scene_graph",
+    "ui",
+    "writers",
 )
 
 

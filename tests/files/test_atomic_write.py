@@ -155,7 +155,9 @@ NAMED_BY_OTHERS = {
     "io/output/video_files.py", "apps/golden/html_report.py", "apps/golden/result_files.py",
     "rendering/frame.py", "apps/sheet/contact_sheet.py", "io/formats/gltf/gltf_writer.py",
     "io/formats/obj/obj_writer.py", "io/formats/ply/ply_writer.py", "io/writing/scene_saving.py",
-    "io/formats/stl_writer.py", "io/plugins/plugin_writing.py",
+    "io/formats/stl_writer.py", "io/plugins/plugin_writing.py", "apps/agents/exporting.py",
+    "apps/drawings/line_drawing.py", "io/output/value_files.py", "compat/pyvista/_saving.py",
+    "compat/trimesh/windowed.py", "extras/sensors/cloud_files.py",
 }  # fmt: skip
 
 
@@ -184,7 +186,8 @@ def test_every_file_is_written_by_this_module_and_below_its_folder():
             if called in ("write_bytes", "write_text"):
                 direct.add(name)
     assert followed - {"base/files/atomic_write.py"} == NAMED_BY_OTHERS
-    assert direct == {"apps/cli/__init__.py"}  # which opens what leads nowhere
+    # The first opens what leads nowhere, the other a file in a folder of its own for a moment.
+    assert direct == {"apps/cli/__init__.py", "io/cad/shape_files.py"}
 
 
 def test_an_address_is_no_place_to_write_to(tmp_path, monkeypatch):

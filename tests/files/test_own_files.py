@@ -20,6 +20,7 @@ from engine3d.errors import FileAccessError, FileFormatError
 ENGINE = Path(e3d.__file__).parent
 #: Modules that write JSON: which of `KINDS` reads it again, or why nothing does.
 WRITERS = {
+    "apps/agents/server.py": "answers of a protocol",
     "apps/batch/bytes_of.py": "what scripts want beside their pictures",
     "apps/batch/task.py": "for a hash",
     "apps/cli/commands/bench.py": "for people and programs",
@@ -31,6 +32,7 @@ WRITERS = {
     "apps/editor/autosave.py": "copies",
     "apps/desktop/recent_files.py": "recent",
     "base/files/json_records.py": "batch-plain",
+    "compat/open3d/view_control.py": "what Open3D's programs keep of a view",
     "apps/golden/golden_files.py": "golden",
     "apps/golden/result_files.py": "results",
     "apps/sheet/report.py": "for people and programs",
@@ -41,6 +43,8 @@ WRITERS = {
 READERS = {
     "apps/batch/task.py": "what it just wrote, in memory",
     "base/files/json_records.py": "the one place",
+    "compat/open3d/render_option.py": "files of Open3D, whose errors it raises",
+    "compat/open3d/view_control.py": "a text, in memory, as Open3D writes it",
     "io/formats/gltf/gltf_file.py": "files of others, with errors of its own",
 }
 COUNTS = {"golden": 60, "results": 100, "copies": 100, "recent": 60, "config": 10}

@@ -9,10 +9,11 @@ from public.test_copies import COPIED, MAY_BE_WRITTEN, REFUSED, painted
 import engine3d as e3d
 from engine3d.model.scene.scene_data import SceneData
 
-#: What is not looked into: it shows nothing that a picture is drawn from, or is no program's.
+#: What is not looked into: it shows nothing that a picture is drawn from, or is no program's, or
+#: is the caller's own.
 _ENDS = (
     *(str, bytes, int, float, bool, complex, type(None), type, np.dtype, np.generic),
-    SceneData,
+    *(SceneData, e3d.Frame),
 )
 
 

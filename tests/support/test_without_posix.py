@@ -16,6 +16,8 @@ pytestmark = pytest.mark.skipif(typeshed() is None, reason="pip install mypy: wh
 PACKAGE = Path(engine3d.__file__).parent
 # Names that are asked for where the system is known to have them: each file says how.
 KNOWN = {
+    "apps/agents/server_limits.py": {"ITIMER_REAL", "SIGALRM"},  # has setitimer
+    "compat/open3d/_stand_ins.py": {"memfd_create"},  # on Linux
     "base/system.py": {"SIGKILL", "sysconf"},  # where there is killpg; AttributeError
     "apps/editor/ui/interrupts.py": {"setitimer", "ITIMER_REAL", "SIGALRM"},  # has_alarm()
     "base/files/atomic_write.py": {"set_blocking"},  # where AT_ONCE is a flag
@@ -31,7 +33,7 @@ import subprocess, sys, tempfile, types
 import numpy, PIL.Image, rich.console, sdl2
 # Other packages start programs, for which Python 3.13 has names of `os`.
 subprocess._USE_POSIX_SPAWN = False
-for name in ("matplotlib.pyplot", "mujoco", "pyvista"):
+for name in ("matplotlib.pyplot", "mujoco", "pyvista", "trimesh.viewer"):
     try:
         importlib.import_module(name)
     except ImportError:

@@ -129,7 +129,7 @@ def drawing_sheet(
     choose(page, PAGES, "page")
     if up is not None:
         choose(up, UP_DIRECTIONS, "up")
-    opened = open_sources(model, root)
+    opened = open_sources(model, root=root)
     if len(opened) != 1:
         raise InvalidArgumentError(f"a page shows one model, not {len(opened)}")
     length = unit or opened[0].unit or None

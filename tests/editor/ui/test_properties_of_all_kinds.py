@@ -26,6 +26,9 @@ HELD = {
     "light probe": lambda: e3d.LightProbe(np.ones((9, 3))),
     "intrinsics camera": lambda: e3d.IntrinsicsCamera(300, 300, 100, 80),
     "camera": lambda: e3d.Camera(np.eye(4)),
+    "fisheye camera": lambda: e3d.FisheyeCamera(100, 100, 80, 60),
+    "brown-conrady camera": lambda: e3d.BrownConradyCamera(100, 100, 80, 60),
+    "double-sphere camera": lambda: e3d.DoubleSphereCamera(100, 100, 80, 60),
     "orthographic camera": lambda: e3d.OrthographicCamera(1.0),
 }
 OTHERS = {

@@ -113,6 +113,10 @@ COPIED = {
     "LineDrawing": lambda: e3d.drawings.line_drawing(painted(), threads=1),
     "DrawingSheet": lambda: e3d.drawings.drawing_sheet(painted(), threads=1),
     "World": lambda: e3d.worlds.city(20_000, seed=1),
+    "Measures": lambda: e3d.measuring.measure(painted()),
+    "Faults": lambda: e3d.measuring.check(painted()),
+    "Gap": lambda: e3d.measuring.distance(painted(), e3d.box()),
+    "Deviation": lambda: e3d.measuring.hausdorff(painted(), e3d.box()),
     "Moment": lambda: moment(),
     "Flow": lambda: moment().flow_to(moment()),
     "StereoCamera": lambda: e3d.sensors.StereoCamera(e3d.PerspectiveCamera(), 0.1),
@@ -151,6 +155,7 @@ WITH_NODES = {"RayHit", "ColliderHit"}  # tuples: what holds for their nodes hol
 #: Their arrays are the caller's.
 MAY_BE_WRITTEN = {
     *("Canvas", "Flow", "Frame", "LidarScan", "RayHits", "RasterizeResult", "StereoPair", "Values"),
+    *("Deviation", "Faults", "Gap", "Measures"),
 }
 WAYS = {
     "copy": copy.copy,

@@ -259,7 +259,7 @@ static end nearest_of(const job *j, const sight *s, const candidate *list, int c
         if (!(depth >= j->near && depth <= j->far))
             continue;
         if (at.distance < best.at.distance ||
-            (at.distance == best.at.distance && comes_first(list + i, list + best.which)))
+            (best.which >= 0 && at.distance == best.at.distance && comes_first(list + i, list + best.which)))
             best = (end){i, at};
     }
     return best;

@@ -1,5 +1,7 @@
 """Where triangles of different parts cross, against edges that pierce triangles."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -50,6 +52,28 @@ def test_segments_end_where_edges_pierce_triangles(seed):
             for point in points:
                 assert np.linalg.norm(ends - point, axis=1).min() < 1e-9
     assert not found
+
+
+def small_triangles(count):
+    rng = np.random.default_rng(count)
+    return rng.uniform(-1, 1, (count, 1, 3)) + rng.normal(0, 0.01, (count, 3, 3))
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e5])
+def test_a_triangle_far_out_costs_no_time_and_changes_nothing(bad):
+    # Triangles that all lay at one place of the curve were each compared with half of the others.
+    triangles, parts = small_triangles(30000), np.arange(30000) % 2
+    begin = time.process_time()
+    alone = crossings(triangles[1:], parts[1:])
+    usual = time.process_time() - begin
+    triangles[0, 0] = bad
+    begin = time.process_time()
+    found = crossings(triangles, parts)
+    assert time.process_time() - begin < 0.5 + 6 * usual
+    found = found[found["faces"][:, 0] > 0]
+    assert len(alone) > 100
+    assert (found["faces"] - 1 == alone["faces"]).all()
+    assert (found["ends"] == alone["ends"]).all()
 
 
 def test_order_and_threads_change_nothing():

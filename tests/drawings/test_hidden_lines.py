@@ -1,5 +1,6 @@
 """Hidden lines against oracles: rational numbers on a lattice, and rays in space."""
 
+import time
 from fractions import Fraction
 
 import numpy as np
@@ -164,6 +165,71 @@ def test_what_is_not_finite_hides_nothing():
     assert pieces.tolist() == [(0, 0, 0.0, 1.0)]
     pieces = hide(places, [[0, 1, 4]], ends[:1])
     assert pieces.tolist() == [(0, 1, 0.0, 1.0)]
+
+
+NOT_FINITE = [np.nan, np.inf, -np.inf]
+
+
+def many(seed, count=200):
+    """Return random triangles (count, 3, 3) and lines (count, 2, 3), the triangles smaller."""
+    rng = np.random.default_rng(seed)
+    triangles = rng.uniform(-1, 1, (count, 1, 3)) + rng.normal(0, 0.2, (count, 3, 3))
+    return triangles, rng.uniform(-1, 1, (count, 2, 3))
+
+
+@pytest.mark.parametrize("bad", NOT_FINITE)
+@pytest.mark.parametrize("axis", range(3))
+def test_lines_that_are_not_finite_change_no_others(bad, axis):
+    triangles, ends = many(axis)
+    places, faces = triangles.reshape(-1, 3), np.arange(600).reshape(-1, 3)
+    alone = hide(places, faces, ends)
+    assert 0 < alone["is_hidden"].sum() < len(alone)
+    others = np.repeat(ends[:9], 2, axis=0)
+    others[:, 1, axis] = bad
+    others[::3, 0, axis] = bad
+    together = hide(places, faces, np.concatenate([ends, others]))
+    assert (together[together["line"] < len(ends)] == alone).all()
+
+
+@pytest.mark.parametrize("bad", NOT_FINITE)
+@pytest.mark.parametrize("column", range(4))
+def test_triangles_that_are_not_finite_change_nothing(bad, column):
+    # Half of the triangles, among the others in depth: none of these may be taken for farther.
+    triangles, ends = many(10 + column)
+    places, faces = triangles.reshape(-1, 3), np.arange(600).reshape(-1, 3)
+    paper = from_above(places)
+    paper[300::3, column] = bad
+
+    def hide_by(faces):
+        lines = from_above(ends.reshape(-1, 3)).reshape(-1, 2, 4)
+        faces = np.ascontiguousarray(faces, np.int32)
+        return native.hide_lines(places, paper, faces, EYE, THICKNESS, REACH, ends, lines, LEAST, 1)
+
+    if column != 2:  # the inverse of w matters for lines alone
+        assert (hide_by(faces) == hide_by(faces[:100])).all()
+    assert (hide_by(faces[:100]) == hide(places, faces[:100], ends)).all()
+
+
+@pytest.mark.parametrize("bad", NOT_FINITE)
+@pytest.mark.parametrize("column", range(4))
+def test_strokes_that_are_not_finite_change_no_others(bad, column):
+    rng = np.random.default_rng(column)
+    segments = np.repeat(rng.uniform(0, 9, (40, 4)), 2, axis=0)
+    other = segments[:1].copy()
+    other[0, column] = bad
+    pieces = native.hide_repeated(np.concatenate([segments, other]), 1e-6, 1)
+    assert pieces["line"].tolist() == list(range(80))
+    assert pieces["is_hidden"].tolist() == [0, 1] * 40
+
+
+@pytest.mark.parametrize("scale", [1e-320, 1e-300, 1e-200, 1e200, 1e300])
+def test_sizes_at_the_ends_of_doubles_take_no_time(scale):
+    # Their squares are 0 or infinite. Cells that did not become larger took minutes.
+    triangles, ends = many(3)
+    begin = time.monotonic()
+    hide(triangles.reshape(-1, 3) * scale, np.arange(600).reshape(-1, 3), ends * scale)
+    native.hide_repeated(ends[:, :, :2].reshape(-1, 4) * scale, 0.02 * scale, 1)
+    assert time.monotonic() - begin < 1.0
 
 
 @pytest.mark.parametrize("scale", [1e-30, 1e-6, 1e6, 1e30])

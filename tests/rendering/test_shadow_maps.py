@@ -436,3 +436,16 @@ def test_lights_without_anything_to_shine_on():
     camera = e3d.PerspectiveCamera(0.8), e3d.look_at((3, 4, 6), (0, 0, 0))
     with Renderer((16, 16)) as renderer:
         assert not renderer.render(scene, camera).color[..., :3].any()
+
+
+@pytest.mark.parametrize("size", [1e-42, 1e-38, 1e-30, 1e-20, 1e-10, 1e20, 1e37])
+def test_a_scene_of_any_size_around_the_camera_is_drawn(size):
+    # The camera's own range, of at least so many metres, then has no parts but a point.
+    rng = np.random.default_rng(0)
+    scene = e3d.Scene()
+    positions = (rng.uniform(-1, 1, (60, 3)) * size).astype(np.float32)
+    scene.add(e3d.Mesh(positions, np.arange(60, dtype=np.int32).reshape(-1, 3)))
+    scene.add(e3d.DirectionalLight(shadow="map"))
+    camera = scene.add(e3d.PerspectiveCamera(), pose=np.eye(4))
+    frame = e3d.Renderer((24, 16), threads=1).render(scene, camera)
+    assert frame.color.shape == (16, 24, 4)

@@ -200,6 +200,31 @@ def calls_within(folder):
     }
 
 
+def homes_of_functions(sources):
+    """The .c files in which each function that is not static is defined, but for programs."""
+    homes = defaultdict(set)
+    for name, code in sources.items():
+        if name.endswith(".c") and folder_of(name) not in PROGRAMS:
+            for function, is_static in functions(code).items():
+                if not is_static:
+                    homes[function].add(name)
+    return homes
+
+
+def test_no_two_files_define_a_function_of_one_name():
+    # Libraries are static: the linker takes the first of two, and does not tell.
+    homes = homes_of_functions(CODE)
+    assert len(homes) > 500
+    assert {name: files for name, files in homes.items() if len(files) > 1} == {}
+
+
+def test_homes_of_functions_are_found():
+    text = "static int one(void)\n{\n}\n\nint *two(const int *a,\n         int b)\n{\n}\n"
+    both = {"scene/a.c": text, "post/b.c": text}
+    programs = {"check/fuzz/c.c": text, "scene/d.h": text}
+    assert homes_of_functions({**both, **programs}) == {"two": set(both)}
+
+
 def test_no_files_of_a_folder_call_each_other_in_a_circle():
     assert [circle for folder in FOLDERS for circle in circles(calls_within(folder))] == []
 

@@ -21,33 +21,38 @@ drw_box drw_box_of(const double *places, const int32_t *face, double margin)
     for (int corner = 0; corner < 3; corner++)
         for (int k = 0; k < 3; k++) {
             double at = places[3 * (size_t)face[corner] + (size_t)k];
+            if (!isfinite(at))
+                return EMPTY;
             box.low[k] = fmin(box.low[k], at - margin);
             box.high[k] = fmax(box.high[k], at + margin);
         }
     return box;
 }
 
-/* Spreads the low 10 bits, so that two zeros follow each. */
-static uint32_t spread(uint32_t bits)
+/* Spreads the low 21 bits, so that two zeros follow each. */
+static uint64_t spread(uint64_t bits)
 {
-    bits = (bits | bits << 16) & 0x030000FF;
-    bits = (bits | bits << 8) & 0x0300F00F;
-    bits = (bits | bits << 4) & 0x030C30C3;
-    return (bits | bits << 2) & 0x09249249;
+    bits = (bits | bits << 32) & 0x001F00000000FFFF;
+    bits = (bits | bits << 16) & 0x001F0000FF0000FF;
+    bits = (bits | bits << 8) & 0x100F00F00F00F00F;
+    bits = (bits | bits << 4) & 0x10C30C30C30C30C3;
+    return (bits | bits << 2) & 0x1249249249249249;
 }
 
-static uint32_t code_of(const drw_box *box, const drw_box *all)
+/* Steps are so fine that small triangles are told apart beside one that is a million times as large. */
+static uint64_t code_of(const drw_box *box, const drw_box *all)
 {
-    uint32_t code = 0;
+    enum { LAST = (1 << 21) - 1 };
+    uint64_t code = 0;
     for (int k = 0; k < 3; k++) {
-        double size = all->high[k] - all->low[k], at = ((box->low[k] + box->high[k]) * 0.5 - all->low[k]) / size * 1024;
-        code |= spread(at > 0 ? at < 1023 ? (uint32_t)at : 1023 : 0) << k;
+        double size = all->high[k] - all->low[k], at = ((box->low[k] + box->high[k]) * 0.5 - all->low[k]) / size * (LAST + 1);
+        code |= spread(at > 0 ? at < LAST ? (uint64_t)at : LAST : 0) << k;
     }
     return code;
 }
 
 typedef struct coded {
-    uint32_t code;
+    uint64_t code;
     int32_t item;
 } coded;
 

@@ -19,6 +19,7 @@ typedef struct drw_boxes {
     int32_t *items; /* the triangle of each box of level 0; -1 for padding */
 } drw_boxes;
 
+/* Empty if a corner is not finite. */
 drw_box drw_box_of(const double *places, const int32_t *face, double margin);
 e3d_status drw_boxes_build(drw_boxes *boxes, const double *places, const int32_t *faces, size_t count, double margin);
 void drw_boxes_free(drw_boxes *boxes);

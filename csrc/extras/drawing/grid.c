@@ -13,6 +13,19 @@ enum { MOST_CELLS_ACROSS = 4096 };
 static double least(double a, double b) { return b < a ? b : a; }
 static double most(double a, double b) { return b > a ? b : a; }
 
+void drw_measure(const double *lines, size_t count, double low[2], double high[2])
+{
+    low[0] = low[1] = INFINITY;
+    high[0] = high[1] = -INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        const double *line = lines + 4 * i;
+        for (int axis = 0; axis < 2 && isfinite(line[2] - line[0]) && isfinite(line[3] - line[1]); axis++) {
+            low[axis] = least(low[axis], least(line[axis], line[2 + axis]));
+            high[axis] = most(high[axis], most(line[axis], line[2 + axis]));
+        }
+    }
+}
+
 /* The row or column that holds a coordinate; those outside of the grid are -1 or `count`. */
 static int32_t cell_of(const drw_grid *grid, int axis, double at, int32_t count)
 {
@@ -143,7 +156,7 @@ static int32_t cells_across(double length, double side)
 static void set_cells(drw_grid *grid, const double size[2], double wanted)
 {
     double longer = most(size[0], size[1]), shorter = most(least(size[0], size[1]), longer / wanted);
-    double side = sqrt(longer * shorter / wanted);
+    double side = sqrt(longer / wanted) * sqrt(shorter); /* no product of lengths, which may be beyond what doubles hold */
     grid->columns = cells_across(size[0], side);
     grid->rows = cells_across(size[1], side);
     grid->cells_per_unit[0] = size[0] > 0 ? grid->columns / size[0] : 1;

@@ -27,6 +27,8 @@ typedef struct drw_items {
     int corners;
 } drw_items;
 
+/* Finds the box of lines; those whose length is not finite have no pieces, and do not count. */
+void drw_measure(const double *lines, size_t count, double low[2], double high[2]);
 /* Makes a grid over a box for items, of which `order` lists *count. Items reach `margin` beyond their corners. Only cells that
  * some of `lines` touch get lists (all if there are no lines, NULL). Items in no list are taken out of `order`. */
 e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,

@@ -45,6 +45,7 @@ static int prepare_one(const hiding *job, size_t face)
         meets &= more(more(a[axis], b[axis]), c[axis]) + reach >= job->low[axis];
         meets &= less(less(a[axis], b[axis]), c[axis]) - reach <= job->high[axis];
     }
+    meets &= isfinite(a[E3D_SHEET_DEPTH]) && isfinite(b[E3D_SHEET_DEPTH]) && isfinite(c[E3D_SHEET_DEPTH]);
     job->nearest[face] = less(less(a[E3D_SHEET_DEPTH], b[E3D_SHEET_DEPTH]), c[E3D_SHEET_DEPTH]);
     return meets;
 }
@@ -103,17 +104,10 @@ static int reserve(hiding *job)
 
 static void measure(hiding *job)
 {
-    for (int axis = 0; axis < 2; axis++) {
-        job->low[axis] = INFINITY;
-        job->high[axis] = -INFINITY;
-    }
     for (size_t i = 0; i < 2 * job->lines->count; i++)
-        for (size_t axis = 0; axis < 2; axis++) {
-            double at = job->lines->sheet[E3D_SHEET * i + axis];
-            job->ends[2 * i + axis] = at;
-            job->low[axis] = less(job->low[axis], at);
-            job->high[axis] = more(job->high[axis], at);
-        }
+        for (size_t axis = 0; axis < 2; axis++)
+            job->ends[2 * i + axis] = job->lines->sheet[E3D_SHEET * i + axis];
+    drw_measure(job->ends, job->lines->count, job->low, job->high);
 }
 
 /* A line as the search needs it. */

@@ -60,16 +60,6 @@ static int find_stretches(const void *argument, int32_t number, drw_scratch *scr
     return 1;
 }
 
-static void measure(const double *segments, size_t count, double low[2], double high[2])
-{
-    low[0] = low[1] = INFINITY;
-    high[0] = high[1] = -INFINITY;
-    for (size_t i = 0; i < 4 * count; i++) {
-        low[i % 2] = fmin(low[i % 2], segments[i]);
-        high[i % 2] = fmax(high[i % 2], segments[i]);
-    }
-}
-
 e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolerance, int threads, e3d_piece **pieces, size_t *found)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
@@ -79,7 +69,7 @@ e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolera
     e3d_status status = order ? E3D_OK : E3D_OUT_OF_MEMORY;
     for (size_t i = 0; order && i < count; i++)
         order[i] = (int32_t)i;
-    measure(segments, count, low, high);
+    drw_measure(segments, count, low, high);
     drw_items items = {segments, 2};
     size_t kept = count;
     if (status == E3D_OK)

@@ -29,6 +29,7 @@ int muj_begin_band(muj_shader *shader, int32_t top, muj_fragments *fragments)
     shader->top = top;
     shader->serial++; /* memory begins with faces of band 0 */
     shader->faces.count = fragments->runs.count = 0;
+    shader->corners.count = 0; /* some wait still if memory was out in the band before */
     fragments->count = 0;
     if (!e3d_array_reserve(&shader->chains, textures, sizeof(chain)))
         return 0;

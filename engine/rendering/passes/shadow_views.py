@@ -130,6 +130,11 @@ def _view_of(axes: Axes, position: Sequence[float]) -> list[list[float]]:
 
 # Directional lights
 
+#: A part of the view that is smaller, as a share of the scene, is a point: it has no map.
+_LEAST_PART = 2.0**-40
+#: Texels or depths a world unit, of scenes as small as the least numbers: what float32 holds.
+_MOST_SCALE = 2.0**127
+
 
 class _Square(NamedTuple):
     """The square that a map covers: texels per world unit, and its centre."""
@@ -141,7 +146,7 @@ class _Square(NamedTuple):
 
 def _square(side: float, middle: tuple[float, float], inside: int, play: float) -> _Square:
     """Return a square of a given side, snapped to the step, for a map with given inner texels."""
-    scale = _single((inside - 1) / (side * (1.0 + play)))
+    scale = _single(min((inside - 1) / (side * (1.0 + play)), _MOST_SCALE))
     step = max(int(side * play * scale), 1)
     column, row = (round(at * scale / step) * step for at in middle)
     return _Square(scale, column, row)
@@ -284,7 +289,9 @@ def _sphere(points: list[list[float]]) -> tuple[list[float], float]:
         for of, at in ((points[:4], front), (points[4:], back))
     ]
     deep = length(_difference(back, front))
-    share = max(min((deep * deep + wide[1] ** 2 - wide[0] ** 2) / (2.0 * deep * deep), 1.0), 0.0)
+    square = deep * deep  # 0 of a part so thin that depths are no longer told apart
+    share = (square + wide[1] ** 2 - wide[0] ** 2) / (2.0 * square) if square > 0.0 else 1.0
+    share = max(min(share, 1.0), 0.0)
     middle = [a + (b - a) * share for a, b in zip(front, back, strict=True)]
     return middle, max(length(_difference(p, middle)) for p in points)
 
@@ -309,13 +316,13 @@ def _cascades(
         (math.floor(depths[0] / step) - 1) * step,
         (math.ceil(depths[1] / step) + 1) * step,
     )
-    rise = _single(2.0 / (last - first))
+    rise = _single(min(2.0 / (last - first), _MOST_SCALE))
     depth = rise, _single(-1.0 - first * rise)
     whole = _rounded_up(max(sides[1] - sides[0], downs[1] - downs[0]), 8)
     size = _size_for(light, sight, whole)
     squares = []
     for one in sight.slices:
-        if one.side < whole:
+        if whole * _LEAST_PART < one.side < whole:
             at = dot(axes[0], one.middle), dot(axes[1], one.middle)
             squares.append(_square(one.side, at, size - 2 * margin, _PLAY))
     at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5

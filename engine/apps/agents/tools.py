@@ -15,10 +15,10 @@ from pydantic import Field
 
 from ..._native.images import encode_png
 from ...base.system import usable_processors
+from ...base.thread_count import resolve_threads
 from ...base.validation import choose
 from ...io.reading.reader_registry import formats as readable_formats
 from ...model.primitives import box
-from ...rendering.backend_selection import resolve_threads
 from ...stage.renderer import Renderer
 from ...version import __version__
 from . import answers

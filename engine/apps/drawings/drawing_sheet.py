@@ -13,11 +13,11 @@ import numpy as np
 
 from ...base.angles import limited_angle
 from ...base.calls import checks_types, hints_keywords
+from ...base.thread_count import resolve_threads
 from ...base.validation import choose, positive
 from ...choices import LengthUnit, PageSize
 from ...errors import InvalidArgumentError, printable
 from ...model.geometry.creases import CREASE_ANGLE
-from ...rendering.backend_selection import resolve_threads
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from ..sheet.opening import open_sources
 from ..sheet.views import DEFAULT_VIEWS, check_views

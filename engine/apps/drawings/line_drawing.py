@@ -15,12 +15,12 @@ from ...base.angles import limited_angle
 from ...base.calls import checks_types, hints_keywords
 from ...base.files.atomic_write import atomic_write, checked_path
 from ...base.image_size import check_size
+from ...base.thread_count import resolve_threads
 from ...base.validation import choose, positive
 from ...choices import LengthUnit, LineKind
 from ...errors import InvalidArgumentError, warn
 from ...model.geometry.creases import CREASE_ANGLE
 from ...model.scene.cameras import Camera
-from ...rendering.backend_selection import resolve_threads
 from ...rendering.camera_choice import CameraChoice, find_camera
 from ...stage.near_origin import pose_from_file
 from ...stage.viewed_scene import ViewedScene

@@ -9,9 +9,10 @@ import numpy as np
 
 from ..._native.mujoco import NativePicture
 from ...base.numbers import shown
+from ...base.thread_count import resolve_threads
 from ...base.validation import whole_number
 from ...errors import InvalidArgumentError
-from ...rendering.backend_selection import resolve_backend, resolve_threads
+from ...rendering.backend_selection import resolve_backend
 from ._model import Model
 from ._scenes import SceneView
 

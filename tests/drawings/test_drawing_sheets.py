@@ -112,3 +112,17 @@ def test_cameras_and_empty_models_have_views():
     layers = lines_of(drawing_sheet(scene, views="camera0"), "camera0")
     assert len(layers["outline"]) >= 1
     assert "no lines" in drawing_sheet(e3d.Scene(), views="front").svg()
+
+
+def test_a_page_shows_a_robot_as_its_joints_stand(tmp_path):
+    path = tmp_path / "slide.urdf"
+    link = '<link name="{}"><visual><geometry><box size=".1 .1 .1"/></geometry></visual></link>'
+    path.write_text(
+        f'<robot name="slide">{link.format("a")}{link.format("b")}'
+        '<joint name="rail" type="prismatic"><parent link="a"/><child link="b"/>'
+        '<axis xyz="1 0 0"/><limit lower="0" upper="1"/></joint></robot>'
+    )
+    sheet = drawing_sheet(path, views="front", scale="1:10", joints={"rail": 0.2})
+    assert extent(lines_of(sheet, "front")["outline"])[0] == pytest.approx(30.0, abs=2e-3)
+    with pytest.raises(e3d.Engine3DError, match="rail"):
+        drawing_sheet(path, joints={"rial": 0.2})

@@ -124,6 +124,7 @@ def test_beside_the_model_nothing_is_cut():
     assert (view["blank"], view["why"]) == (True, "behind_camera")
 
 
+@pytest.mark.filterwarnings("ignore:section .* cuts nothing")
 def test_a_plane_far_before_the_model_leaves_all_of_it():
     far, near, whole = (
         drawn(part(), views=views, sections=sections).report["models"][0]["views"]

@@ -49,6 +49,11 @@ def load_camera(path: File) -> Camera:
         The file is none of these, or its model is not known.
     FileAccessError
     """
+    return load_calibration(path)[0]
+
+
+def load_calibration(path: File) -> tuple[Camera, tuple[int, int] | None]:
+    """Read a camera, and the width and height of its pictures where the file states them."""
     with read_source(path) as source:
         if source.size > _LARGEST:
             raise FileFormatError(f"not read: larger than {_LARGEST} bytes", source.path)
@@ -58,7 +63,7 @@ def load_camera(path: File) -> Camera:
                 said: Any = _first_camera(data.decode("utf-8", "replace"))
             else:
                 said = parsed(data, source.path)
-            return camera_of_record(said, "the camera")
+            return camera_of_record(said, "the camera"), _size(said)
         except InvalidArgumentError as error:
             raise FileFormatError(str(error), source.path) from None
 
@@ -83,6 +88,14 @@ def camera_of_record(said: Any, what: str) -> Camera:
         if key in said:
             return make(said, what)
     raise InvalidArgumentError(f"{what} names no camera model: it has none of {', '.join(_FORMS)}")
+
+
+def _size(said: Mapping[str, Any]) -> tuple[int, int] | None:
+    """Return the size that a record states; None for none, and for what is no size."""
+    sides = [said.get(name, said.get(name[0])) for name in ("width", "height")]  # w, h: nerfstudio
+    if not all(real(side) >= 1 and real(side).is_integer() for side in sides):
+        return None
+    return int(real(sides[0])), int(real(sides[1]))
 
 
 def _of_kind(said: Mapping[str, Any], what: str) -> Camera:
@@ -145,7 +158,8 @@ def _first_camera(text: str) -> Mapping[str, Any]:
         if words and not words[0].startswith("#"):
             if len(words) < 5:
                 break
-            return {"model": words[1], "params": [_real_text(word) for word in words[4:]]}
+            width, height, *params = map(_real_text, words[2:])
+            return {"model": words[1], "width": width, "height": height, "params": params}
     raise InvalidArgumentError("neither JSON nor a line of CAMERA_ID MODEL WIDTH HEIGHT PARAMS")
 
 

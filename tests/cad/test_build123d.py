@@ -130,3 +130,21 @@ def test_shapes_of_ocp_itself_and_lists_are_known():
     assert len(scene_of_library([b.Box(1, 1, 1), b.Sphere(1)]).nodes) == 2
     with pytest.raises(e3d.InvalidArgumentError, match="can be drawn"):
         e3d.render(b.Location((1, 2, 3)))
+
+
+@pytest.mark.parametrize("make", [b.Compound, b.Part, b.Sketch, lambda: [b.Part(), b.Sketch()]])
+def test_empty_shapes_are_no_shapes(make):
+    assert scene_of_library(make()) is None
+    with pytest.raises(e3d.InvalidArgumentError, match="can be drawn, not"):
+        e3d.render(make())
+
+
+def test_empty_shapes_leave_the_others():
+    (node,) = scene_of_library([b.Part(), b.Box(1, 1, 1), b.Compound()]).nodes
+    assert len(node.object.faces) == 12
+
+
+@pytest.mark.parametrize("size", [1e-5, 1e-4, 1e-3, 1e6])
+def test_tiny_and_huge_shapes_have_their_size(size):
+    bounds = measure(scene_of_library(b.Box(size, size, size))).bounds
+    np.testing.assert_allclose(bounds[1] - bounds[0], size, rtol=1e-3)

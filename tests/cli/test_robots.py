@@ -83,6 +83,7 @@ def test_convert_and_sheet_take_joints(arm, tmp_path):
         (["--joint", "elbow"], "'elbow' is not NAME=VALUE, such as elbow=0.4"),
         (["--joint", "=1"], "is not NAME=VALUE"),
         (["--joint", "elbow=x"], "'x' is not a number"),
+        (["--joint", "elbow=1grad"], "'1grad' is not a number"),
         (["--joint", "elbow=1,2"], "takes one number"),
         (["--shapes", "none"], "'none' is not one of visual, collision, both"),
     ],

@@ -64,3 +64,11 @@ def test_pyvista_finds_the_entry_point(tmp_path):
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout == "(8, 6) True\n"
+
+
+@pytest.mark.parametrize("name", ["", ".", "/"])
+def test_a_screenshot_needs_the_name_of_a_file(name):
+    plotter = pyvista.Plotter(off_screen=True)
+    plotter.add_mesh(pyvista.Sphere())
+    with pytest.raises(e3d.InvalidArgumentError, match="filename must be the name of a file"):
+        plotter.engine3d.screenshot(name)

@@ -157,3 +157,19 @@ def test_uninstall(installed):
     installed.uninstall()
     module = sys.modules.get("trimesh.viewer.windowed")
     assert module is None or "engine3d" not in module.__name__
+
+
+@pytest.mark.parametrize("name", ["flags", "line_settings"])
+@pytest.mark.parametrize("wrong", ["x", 3, ["axis"]])
+def test_options_that_are_no_dict_are_refused(name, wrong):
+    scene = trimesh.Scene([trimesh.creation.box()])
+    with pytest.raises(e3d.InvalidArgumentError, match=f"{name} must be a dict, not "):
+        scene.save_image(resolution=(8, 8), **{name: wrong})
+
+
+@pytest.mark.parametrize("name", ["point_size", "line_width"])
+@pytest.mark.parametrize("wrong", ["x", None, -1, 0, float("nan"), [1]])
+def test_widths_that_are_no_numbers_are_named(name, wrong):
+    scene = trimesh.Scene([trimesh.creation.box()])
+    with pytest.raises(e3d.InvalidArgumentError, match=f"line_settings.*{name}"):
+        scene.save_image(resolution=(8, 8), line_settings={name: wrong})

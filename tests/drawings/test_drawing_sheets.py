@@ -1,5 +1,7 @@
 """Pages of drawings: lengths on paper, sections, layouts."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -112,3 +114,34 @@ def test_cameras_and_empty_models_have_views():
     layers = lines_of(drawing_sheet(scene, views="camera0"), "camera0")
     assert len(layers["outline"]) >= 1
     assert "no lines" in drawing_sheet(e3d.Scene(), views="front").svg()
+
+
+def test_a_page_shows_a_robot_as_its_joints_stand(tmp_path):
+    path = tmp_path / "slide.urdf"
+    link = '<link name="{}"><visual><geometry><box size=".1 .1 .1"/></geometry></visual></link>'
+    path.write_text(
+        f'<robot name="slide">{link.format("a")}{link.format("b")}'
+        '<joint name="rail" type="prismatic"><parent link="a"/><child link="b"/>'
+        '<axis xyz="1 0 0"/><limit lower="0" upper="1"/></joint></robot>'
+    )
+    sheet = drawing_sheet(path, views="front", scale="1:10", joints={"rail": 0.2})
+    assert extent(lines_of(sheet, "front")["outline"])[0] == pytest.approx(30.0, abs=2e-3)
+    with pytest.raises(e3d.Engine3DError, match="rail"):
+        drawing_sheet(path, joints={"rial": 0.2})
+
+
+@pytest.mark.parametrize(("section", "told"), [("x=0.51", 1), ("-z=-7", 1), ("x=0.5", 0), ("y", 0)])
+def test_a_section_that_misses_the_model_is_named(section, told):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        drawing_sheet(e3d.box(1.0), sections=section)
+    axis = section.strip("-")[0]
+    assert len(caught) == told
+    assert all(f"cuts nothing: {axis} is -0.5 to 0.5" in str(one.message) for one in caught)
+
+
+@pytest.mark.parametrize(("wrong", "meant"), [("frnt", "front"), ("botom", "bottom"), ("i", None)])
+def test_a_misspelt_view_suggests_the_nearest(wrong, meant):
+    with pytest.raises(e3d.InvalidArgumentError, match="is none of front, right") as caught:
+        drawing_sheet(e3d.box(1.0), views=wrong)
+    assert str(caught.value).endswith(f"did you mean {meant}?" if meant else "NAME=DIRECTION")

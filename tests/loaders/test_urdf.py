@@ -144,6 +144,20 @@ def test_wrong_joints_are_named(values, told):
         assert arm.values == {"elbow": 0.0, "slide": 0.0}  # none moved
 
 
+@pytest.mark.parametrize("kind", ["joints", "links", "robots"])
+def test_a_misspelt_name_of_a_mapping_suggests_the_nearest(kind):
+    scene = e3d.load(ARM.encode())
+    (robot,) = scene.robots.values()
+    names = scene.robots if kind == "robots" else getattr(robot, kind)
+    known = max(names, key=len)
+    with pytest.raises(e3d.InvalidArgumentError, match=f"there is no {kind[:-1]} .*{known}"):
+        names[known + "s"]
+    for wrong in (3, None, ("a",)):
+        with pytest.raises(KeyError, match=f"^there is no {kind[:-1]} "):
+            names[wrong]
+    assert names.get("nothing") is None and "nothing" not in names
+
+
 def test_fixed_and_following_joints_are_not_set():
     text = ARM.replace(
         "</robot>",

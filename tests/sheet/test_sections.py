@@ -117,11 +117,14 @@ def test_instances_are_cut_one_by_one():
 
 
 def test_beside_the_model_nothing_is_cut():
-    view, found = cuts(part(), "x=-50")
+    with pytest.warns(e3d.Engine3DWarning, match="section x=-50 cuts nothing: x is ") as told:
+        view, found = cuts(part(), "x=-50")
+    assert len(told) == 1
     assert found == {}
     assert (view["blank"], view["why"]) == (True, "behind_camera")
 
 
+@pytest.mark.filterwarnings("ignore:section .* cuts nothing")
 def test_a_plane_far_before_the_model_leaves_all_of_it():
     far, near, whole = (
         drawn(part(), views=views, sections=sections).report["models"][0]["views"]

@@ -185,10 +185,12 @@ def joint(text: str) -> tuple[str, float | tuple[float, ...]]:
 
 
 def _angle(text: str) -> float:
-    for ending in ("deg", "°"):
-        if text.endswith(ending):
-            return math.radians(number(text.removesuffix(ending)))
-    return number(text.removesuffix("rad"))
+    unit = next((unit for unit in ("deg", "°", "rad") if text.endswith(unit)), "")
+    try:
+        value = number(text.removesuffix(unit))
+    except argparse.ArgumentTypeError:  # tell of the whole word: 1grad ends with rad, too
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+    return value if unit in ("", "rad") else math.radians(value)
 
 
 def names(text: str) -> tuple[str, ...]:

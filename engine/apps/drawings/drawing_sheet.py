@@ -6,7 +6,7 @@ In: a model, views, a page. Out: SVG or PDF, to scale.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from ...base.angles import limited_angle
 from ...base.calls import checks_types, hints_keywords
 from ...base.thread_count import resolve_threads
 from ...base.validation import choose, positive
-from ...choices import LengthUnit, PageSize
+from ...choices import LengthUnit, PageSize, ShapesOf
 from ...errors import InvalidArgumentError, printable
 from ...model.geometry.creases import CREASE_ANGLE
 from ...stage.views.viewpoint import UP_DIRECTIONS
@@ -85,6 +85,8 @@ def drawing_sheet(
     up: str | None = None,
     unit: LengthUnit | None = None,
     root: str | os.PathLike[str] | None = None,
+    joints: Mapping[str, Any] | None = None,
+    shapes: ShapesOf = "visual",
     crease_angle: float = CREASE_ANGLE,
     intersections: bool = True,
     line_width: float = 1.0,
@@ -96,7 +98,7 @@ def drawing_sheet(
     ----------
     model : what `render` takes
         One model.
-    views, sections, up, unit, root
+    views, sections, up, unit, root, joints, shapes
         As for `sheets.contact_sheet`. The unit is one of mm, cm, m, µm, in and ft; without one,
         coordinates are millimetres.
     page : {"A4", "A3", "A2", "A1"}
@@ -129,7 +131,7 @@ def drawing_sheet(
     choose(page, PAGES, "page")
     if up is not None:
         choose(up, UP_DIRECTIONS, "up")
-    opened = open_sources(model, root=root)
+    opened = open_sources(model, root=root, joints=joints, shapes=shapes)
     if len(opened) != 1:
         raise InvalidArgumentError(f"a page shows one model, not {len(opened)}")
     length = unit or opened[0].unit or None

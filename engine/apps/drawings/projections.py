@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
+from ...errors import InvalidArgumentError
 from ...model.scene.cameras import Camera
+from ...model.scene.lenses.lens_camera import LensCamera
 
 #: The least w, as a share of the largest: nothing may be drawn behind the viewer.
 _LEAST_W = 2.0**-30
@@ -99,7 +101,17 @@ def projection_of(
     size : (float, float)
     pixels : (int, int), optional
         The picture's size, whose aspect the camera has; by default that of the frame.
+
+    Raises
+    ------
+    InvalidArgumentError
+        The camera is a lens, which bends lines.
     """
+    if isinstance(camera, LensCamera):
+        raise InvalidArgumentError(
+            f"lines are drawn straight, so not through a {type(camera).__name__}: use a pinhole "
+            "or a parallel camera, or draw a picture"
+        )
     shape = pixels or (max(round(size[0] * 1000), 1), max(round(size[1] * 1000), 1))
     projection = np.array(camera.projection(shape), np.float64)
     w = projection[3]

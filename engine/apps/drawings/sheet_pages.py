@@ -27,6 +27,7 @@ from ..sheet.placing import (
     fitting_scale,
     place_camera,
     section_plane,
+    warn_of_misses,
 )
 from ..sheet.views import ViewSpec
 from .chains import chained
@@ -142,6 +143,7 @@ class SheetPage:
         for spec in specs:
             if spec.camera is not None and spec.camera >= len(self._cameras):
                 raise InvalidArgumentError(f"views: the model has no camera {spec.camera}")
+        warn_of_misses(specs, self._bounds, self._model.origin)
         up = np.array(UP_DIRECTIONS[self._up], np.float64)
         extents = find_extents(specs, support_of_scene(self._model.scene), self._bounds, up)
         area = Rectangle(

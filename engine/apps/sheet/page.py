@@ -23,7 +23,7 @@ from .hidden import AloneScene
 from .layout import Padding, Reach, Rectangle, lay_out
 from .panel_renderer import PanelRenderer
 from .panels import Panel, Place, draw_panel
-from .placing import Extent, find_extents, fitting_scale, place_camera
+from .placing import Extent, find_extents, fitting_scale, place_camera, warn_of_misses
 from .report import ModelReport
 from .views import ViewSpec
 
@@ -108,6 +108,7 @@ class _Page:
         self._check_cameras(specs, cameras)
         studio = PanelRenderer(self._model, self._up, *dress)
         alone = AloneScene(scene)
+        warn_of_misses(specs, studio.bounds, self._model.origin)
         extents = find_extents(specs, support_of_scene(scene), studio.bounds, studio.up)
         x, y, width, height = self._area
         margin, title, foot = (side * text for side in (_MARGIN, _TITLE, _FOOT))

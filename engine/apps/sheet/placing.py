@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...errors import warn
 from ...model.scene.cameras import Camera, OrthographicCamera
 from ...rendering.support_functions import SupportFunction, support_of_box
 from ...stage.views.viewpoint import Sphere
@@ -91,6 +92,15 @@ def fitting_scale(extent: Extent, rectangle: Rectangle, padding: Padding) -> flo
     )
     scales = [pixels / size for pixels, size in zip(room, extent.size[:2], strict=True) if size]
     return min(scales, default=float(min(room)))
+
+
+def warn_of_misses(specs: Iterable[ViewSpec], bounds: np.ndarray, origin: Sequence[float]) -> None:
+    """Name the sections whose planes miss the model; the arguments are those of `section_plane`."""
+    for section in (spec.section for spec in specs if spec.kind == "section"):
+        low, high = (float(corner[section.axis]) + origin[section.axis] for corner in bounds)
+        place, name = section.coordinate(low, high), "xyz"[section.axis]
+        if not low <= place <= high:
+            warn(f"section {name}={place:.6g} cuts nothing: {name} is {low:.6g} to {high:.6g}")
 
 
 def section_plane(

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base import linalg
+from ...base.near_words import meant
 from ...errors import InvalidArgumentError
 from ...model.scene.orbiting import home_axes, orbit_axes
 
@@ -167,6 +168,7 @@ def _view(name: str, direction: str | None) -> ViewSpec:
             known = ", ".join(STANDARD)
             raise InvalidArgumentError(
                 f"views: {name!r} is none of {known}, camera0, nor NAME=DIRECTION"
+                + meant(name, STANDARD)
             )
         return ViewSpec(name, angles=STANDARD[name])
     if direction.strip() in STANDARD:

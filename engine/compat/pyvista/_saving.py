@@ -56,6 +56,8 @@ def _checked(filename: Any) -> tuple[Path, str]:
     if not isinstance(filename, (str, os.PathLike)):
         raise InvalidArgumentError(f"filename must be a path or io.BytesIO, not {shown(filename)}")
     path = Path(filename).expanduser()
+    if not path.name:
+        raise InvalidArgumentError(f"filename must be the name of a file, not {shown(filename)}")
     if isinstance(pyvista.FIGURE_PATH, str) and not path.is_absolute():
         path = Path(pyvista.FIGURE_PATH) / path
     if not path.suffix:

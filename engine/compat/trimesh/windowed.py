@@ -16,7 +16,7 @@ from ..._native.images import encode_png
 from ...apps.viewer.show import show
 from ...base.files.atomic_write import atomic_write
 from ...base.numbers import shown
-from ...base.validation import choose
+from ...base.validation import choose, positive
 from ...errors import InvalidArgumentError, warn
 from ._scene_pictures import draw
 from ._settings import Settings
@@ -97,7 +97,7 @@ class SceneViewer:
         self._first_transform = np.array(scene.camera_transform, np.float64)
         largest = max(self._size)
         self.line_settings = {"point_size": largest / 200, "line_width": largest / 400}
-        self.line_settings.update(line_settings or {})
+        self.line_settings.update(_options(line_settings, "line_settings"))
         self.background = background
         if record:
             scene.metadata["recording"] = []
@@ -109,7 +109,7 @@ class SceneViewer:
     def reset_view(self, flags: Mapping[str, Any] | None = None) -> None:
         """Set the flags to their defaults, or to those given; put the camera back."""
         self.view: dict[str, Any] = dict.fromkeys(_FLAGS, False) | {"cull": True}
-        for name, value in (flags or {}).items():
+        for name, value in _options(flags, "flags").items():
             choose(name, _FLAGS, "flags")
             if name == "axis" and value not in _AXES:
                 choose(value, ("world", "all", "without_world"), "flags['axis']")
@@ -172,8 +172,8 @@ class SceneViewer:
             size=self._size,
             is_smooth=self._smooth,
             flags=dict(self.view),
-            line_width=float(self.line_settings["line_width"]),
-            point_size=float(self.line_settings["point_size"]),
+            line_width=positive(self.line_settings["line_width"], "line_settings['line_width']"),
+            point_size=positive(self.line_settings["point_size"], "line_settings['point_size']"),
             lift=self.scene.scale / 1000 if self._is_offset else 0.0,
             background=self.background,
             hidden=frozenset(self._hidden),
@@ -206,6 +206,13 @@ def render_scene(
     file = io.BytesIO()
     viewer.save_image(file)
     return file.getvalue()
+
+
+def _options(given: Any, what: str) -> Mapping[str, Any]:
+    """Return the options that a dict holds; none for None."""
+    if given is not None and not isinstance(given, Mapping):
+        raise InvalidArgumentError(f"{what} must be a dict, not {shown(given)}")
+    return given or {}
 
 
 def _checked_size(given: Any) -> tuple[int, int]:

@@ -19,6 +19,8 @@ from ...model.materials.material import Material
 
 #: How far a triangle may be from its surface, in diagonals of the shape, and radians.
 LINEAR, ANGULAR = 1e-3, 0.25
+#: Open CASCADE's own precision: it refuses to go below.
+_FINEST = 1e-7
 
 
 def shape_mesh(
@@ -40,7 +42,7 @@ def shape_mesh(
         How far triangles and segments may be from the shape, in its units; by default a thousandth
         of its diagonal.
     """
-    linear = LINEAR * diagonal_of(shape) if tolerance is None else tolerance
+    linear = max(LINEAR * diagonal_of(shape) if tolerance is None else tolerance, _FINEST)
     _tessellate(shape, linear)
     parts = _Parts()
     for face in explored(shape, "FACE"):

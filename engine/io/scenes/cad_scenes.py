@@ -69,7 +69,7 @@ def _placed(thing: Any, pose: NDArray[np.float64], name: str = "", color: Any = 
         yield from _of_assembly(thing, pose, color)
     elif hasattr(thing, "vals"):  # CadQuery's workplane, or sketch
         yield from _placed(_values(thing), pose, name, color)
-    elif hasattr(thing, "wrapped"):
+    elif _is_wrapper(thing):
         yield from _of_wrapper(thing, pose, name, color)
     else:
         for holder in ("part", "sketch", "line"):  # builders of build123d
@@ -85,6 +85,14 @@ def _values(thing: Any) -> list[Any]:
     return [one for one in thing.vals() if hasattr(one, "wrapped") or hasattr(one, "vals")]
 
 
+def _is_wrapper(thing: Any) -> bool:
+    """Return whether something has a shape of OCP, or None in its place."""
+    try:
+        return hasattr(thing, "wrapped")
+    except AssertionError:  # of build123d, whose empty shapes have none
+        return False
+
+
 def _of_wrapper(thing: Any, pose: NDArray[np.float64], name: str, color: Any) -> Iterator[_Placed]:
     """Yield a shape of build123d or CadQuery, or the children of one."""
     if thing.wrapped is None or not hasattr(thing.wrapped, "TShape"):
@@ -92,7 +100,7 @@ def _of_wrapper(thing: Any, pose: NDArray[np.float64], name: str, color: Any) ->
     name = str(getattr(thing, "label", "") or name)
     color = getattr(thing, "color", None) or color
     children = tuple(getattr(thing, "children", ()) or ())
-    children = tuple(child for child in children if hasattr(child, "wrapped"))
+    children = tuple(filter(_is_wrapper, children))
     if not children:
         yield from _of_shape(thing.wrapped, pose, name or type(thing).__name__.lower(), color)
         return

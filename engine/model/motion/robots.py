@@ -16,11 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base import linalg
 from ...base.calls import checks_types
-from ...base.near_words import meant
+from ...base.named_things import NamedThings
 from ...base.numbers import shown
 from ...base.validation import FixedNames
 from ...choices import JointKind
-from ...errors import InvalidArgumentError
 from ..scene.nodes import Node
 from .joints import JointForm, JointValue, checked_values, joint_pose, rest_value
 
@@ -103,8 +102,10 @@ class Robot(FixedNames):
         values: Mapping[str, JointValue],
     ) -> None:
         self._name = name
-        self._links = {node.name: node for node in links}
-        self._joints = {form.name: Joint(self, form, *ends) for form, *ends in joints}
+        self._links: NamedThings[Node] = NamedThings("link")
+        self._links.update((node.name, node) for node in links)
+        self._joints: NamedThings[Joint] = NamedThings("joint")
+        self._joints.update((form.name, Joint(self, form, *ends)) for form, *ends in joints)
         self._forms = {joint.name: joint._form for joint in self._joints.values()}
         self._above = {joint._child: joint for joint in self._joints.values()}
         for key, value in values.items():
@@ -173,8 +174,6 @@ class Robot(FixedNames):
         InvalidArgumentError
             There is no such link.
         """
-        if name not in self._links:
-            raise InvalidArgumentError(f"there is no link {shown(name)}{meant(name, self._links)}")
         return self._placed(self._links[name], {})
 
     def link_poses(self) -> dict[str, NDArray[np.float64]]:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..._native.scene_graph import OBJECT_BOX, union
+from ...base.named_things import NamedThings
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -92,7 +93,7 @@ class SceneData:
         self.cameras: dict[int, Node] = {}
         self.lights: dict[int, Node] = {}
         self.colliders: dict[int, Node] = {}
-        self.robots: dict[str, Robot] = {}
+        self.robots: NamedThings[Robot] = NamedThings("robot")
         self.placed_colliders: Any = None
         self.removals = self.renames = 0
         self._ids = itertools.count()

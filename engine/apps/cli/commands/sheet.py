@@ -76,6 +76,7 @@ def _draw_lines(args: argparse.Namespace) -> int:
         up=args.up,
         unit=args.unit,
         root=args.root,
+        **of_robot(args),
         title=args.title,
         **page,
         **drawing_keywords(args),

@@ -94,22 +94,23 @@ def add_camera(parser) -> None:
         )
 
 
-def _lens(path: str | None):
-    """Return the lens that a file describes; None for no file."""
+def lens_of(args: argparse.Namespace):
+    """Return the lens of a calibration, and the size that it is for; None for what there is not."""
+    path = args.camera_lens
     if path is None:
-        return None
-    from ....io.camera_files import load_camera
+        return None, None
+    from ....io.camera_files import load_calibration
     from ....model.scene.cameras import IntrinsicsCamera
     from ....model.scene.lenses.lens_camera import LensCamera
 
-    camera = load_camera(path)
+    camera, size = load_calibration(path)
     if not isinstance(camera, LensCamera | IntrinsicsCamera):
         raise UsageError(f"--camera-lens: {path} holds no lens, but a {type(camera).__name__}")
-    return camera
+    return camera, size
 
 
-def first_view(args: argparse.Namespace) -> FirstView:
-    """Return the first view that the options describe."""
+def first_view(args: argparse.Namespace, lens) -> FirstView:
+    """Return the first view that the options describe, through a lens or None."""
     from ....stage.views.first_view import FirstView
 
     angle, index, position = args.camera_yfov, args.camera_index, args.camera_position
@@ -127,5 +128,5 @@ def first_view(args: argparse.Namespace) -> FirstView:
         direction=args.camera_direction,
         up=args.camera_view_up,
         camera=index if through else None,
-        lens=_lens(args.camera_lens),
+        lens=lens,
     )

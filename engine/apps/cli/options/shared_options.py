@@ -110,10 +110,11 @@ class Viewing(NamedTuple):
 
 def viewing(args: argparse.Namespace, **more) -> Viewing:
     """Return the settings of the options; ``more`` are further fields of `Settings`."""
+    lens, size = camera_options.lens_of(args)
     return Viewing(
         settings(args, **more),
-        camera_options.first_view(args),
-        args.size,
+        camera_options.first_view(args, lens),
+        args.size or size,
         args.antialiasing,
         args.samples,
         args.backend,

@@ -90,7 +90,7 @@ def test_memory_is_limited(write, monkeypatch):
     limit = limited_process.MAX_MEMORY_BASE + limited_process.MAX_MEMORY_RATIO * 5
     with pytest.raises(FileFormatError, match=rf"a\.xyz: needs more than {limit} bytes of memory"):
         read_greedily(write, monkeypatch, split=False)
-    assert limit < 300 * MEGABYTE
+    assert limit < 520 * MEGABYTE
 
 
 @pytest.mark.parametrize("by_clock", [False, True])

@@ -22,8 +22,9 @@ from .linked_files import found_files, tell_found
 from .sources import Source
 
 Answer = TypeVar("Answer")
-# Memory limit beyond Python's own: a base, and a multiple of the file's size.
-MAX_MEMORY_BASE = 256 << 20
+# Memory limit beyond Python's own: a base, which the reader's library needs (trimesh loads SciPy,
+# where that is installed), and a multiple of the file's size.
+MAX_MEMORY_BASE = 512 << 20
 MAX_MEMORY_RATIO = 40
 # Seconds of processor time: a base, and for each megabyte of the file.
 MAX_SECONDS_BASE = 10

@@ -266,20 +266,27 @@ static void meet_node(search *s, int32_t slot)
     }
 }
 
+/* A search in a graph that has met nothing yet; its caller says what it culls. */
+static search begin_search(const e3d_graph *graph, const e3d_shape *shapes, int32_t shape_count, const double origin[3],
+                           const double direction[3], double farthest, e3d_hit *hit)
+{
+    *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
+    return (search){.graph = graph,
+                    .shapes = shapes,
+                    .shape_count = shape_count,
+                    .ray = make_ray(origin, direction),
+                    .aim = e3d_aim_of(origin, direction),
+                    .missing = -1,
+                    .hit = hit};
+}
+
 int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes,
                       int32_t shape_count, const double origin[3], const double direction[3],
                       double farthest, e3d_cull cull, e3d_hit *hit)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
-    search s = {.graph = graph,
-                .shapes = shapes,
-                .shape_count = shape_count,
-                .cull = cull,
-                .ray = make_ray(origin, direction),
-                .aim = e3d_aim_of(origin, direction),
-                .missing = -1,
-                .hit = hit};
-    *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
+    search s = begin_search(graph, shapes, shape_count, origin, direction, farthest, hit);
+    s.cull = cull;
     walk(tree, &s.ray, &s, meet_node);
     e3d_fpenv_leave(saved);
     return s.missing;
@@ -289,15 +296,8 @@ void e3d_node_ray(const e3d_graph *graph, const e3d_shape *shapes, int32_t shape
                   const double origin[3], const double direction[3], double farthest, e3d_hit *hit)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
-    search s = {.graph = graph,
-                .shapes = shapes,
-                .shape_count = shape_count,
-                .cull = E3D_CULL_NONE,
-                .ray = make_ray(origin, direction),
-                .aim = e3d_aim_of(origin, direction),
-                .missing = -1,
-                .hit = hit};
-    *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
+    search s = begin_search(graph, shapes, shape_count, origin, direction, farthest, hit);
+    s.cull = E3D_CULL_NONE;
     meet_node(&s, slot);
     e3d_fpenv_leave(saved);
 }

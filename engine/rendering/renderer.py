@@ -278,12 +278,16 @@ class Renderer(Closed):
         """Draw a frame; the caller holds the turn."""
         outputs = tuple(options.outputs if out is None else self._check_out(out).outputs)
         passes = self._painter.passes
-        view = self._view_of(scene, camera)
+        census, reads_scene = scene.data.census(), True
+        try:
+            view = self._viewpoint.look(scene, camera, *self._size)
+        except Exception as error:
+            _blame_change(scene, census, error)
+            raise
         if isinstance(view, LensView):
             return self._draw_through(scene, view, options, outputs, out, culling_camera)
         plan = passes.plan(options, outputs, self._size)
         frame = Frame(self._size, self._pool.take(plan.outputs)) if out is None else out
-        census, reads_scene = scene.data.census(), True
         try:
             picture = self._look(scene, view, options, plan.listed, culling_camera)
             picture.targets, picture.arrays = passes.arrays(plan, frame._outputs)
@@ -298,15 +302,6 @@ class Renderer(Closed):
         frame._seen = picture.view, "none" if options.cull == "auto" else options.cull
         frame._drawn = scene.data.node_count, picture.drawn
         return frame
-
-    def _view_of(self, scene: AnyScene, camera: CameraChoice) -> View:
-        """Return the view of a camera."""
-        census = scene.data.census()
-        try:
-            return self._viewpoint.look(scene, camera, *self._size)
-        except Exception as error:
-            _blame_change(scene, census, error)
-            raise
 
     def _draw_through(
         self,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterable
+from typing import Any
 
 from ....base.files.atomic_write import atomic_write
 from ....base.files.making_folders import make_folder_of
@@ -35,13 +36,8 @@ def sheet(args: argparse.Namespace) -> int:
     report = _check(args)
     drawn = contact_sheet(
         model_files(args.models),
-        views=_views(args),
-        sections=args.section or (),
+        **_of_model(args),
         size=args.size,
-        up=args.up,
-        unit=args.unit,
-        root=args.root,
-        **of_robot(args),
         look=look(args),
         material=None if args.color is None else Material(color=args.color),
         **marks(args),
@@ -50,6 +46,18 @@ def sheet(args: argparse.Namespace) -> int:
     )
     _write(args.output, report, drawn)
     return 0
+
+
+def _of_model(args: argparse.Namespace) -> dict[str, Any]:
+    """Return what is drawn of the model, in pixels or in lines."""
+    return {
+        "views": _views(args),
+        "sections": args.section or (),
+        "up": args.up,
+        "unit": args.unit,
+        "root": args.root,
+        **of_robot(args),
+    }
 
 
 def _draw_lines(args: argparse.Namespace) -> int:
@@ -71,12 +79,7 @@ def _draw_lines(args: argparse.Namespace) -> int:
     page = {} if args.page is None else {"page": args.page}
     drawn = drawing_sheet(
         model_files(args.models),
-        views=_views(args),
-        sections=args.section or (),
-        up=args.up,
-        unit=args.unit,
-        root=args.root,
-        **of_robot(args),
+        **_of_model(args),
         title=args.title,
         **page,
         **drawing_keywords(args),

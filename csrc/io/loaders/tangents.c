@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "base/fpenv.h"
+#include "base/joined_sets.h"
 #include "e3d_surfaces.h"
 #include "io/loaders/corner_angles.h"
 
@@ -118,25 +119,6 @@ static void spread_turns(const uint32_t *other, turned *faces, size_t count, uin
 
 /* ---- groups ---- */
 
-static uint32_t root_of(uint32_t *parent, uint32_t corner)
-{
-    while (parent[corner] != corner) {
-        parent[corner] = parent[parent[corner]];
-        corner = parent[corner];
-    }
-    return corner;
-}
-
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
-
 /* Numbers the groups in the order of their first corners; returns how many there are. */
 static size_t number_groups(const uint32_t *other, const turned *faces, size_t face_count, uint32_t *parent, int32_t *groups)
 {
@@ -146,11 +128,11 @@ static size_t number_groups(const uint32_t *other, const turned *faces, size_t f
     for (uint32_t n = 0; n < 3 * face_count; n++) {
         if (other[n] == NONE || other[n] < n || faces[n / 3].turn != faces[other[n] / 3].turn)
             continue;
-        join(parent, n, next_corner(other[n]));
-        join(parent, next_corner(n), other[n]);
+        e3d_join_sets(parent, n, next_corner(other[n]));
+        e3d_join_sets(parent, next_corner(n), other[n]);
     }
     for (uint32_t n = 0; n < 3 * face_count; n++) {
-        uint32_t root = root_of(parent, n);
+        uint32_t root = e3d_set_of(parent, n);
         groups[n] = root == n ? (int32_t)count++ : groups[root];
     }
     return count;

@@ -41,13 +41,6 @@ def dot(a: Vector, b: Vector) -> float:
     return (x + y) + z
 
 
-def cross(a: Vector, b: Vector) -> Vector:
-    """Return the cross product."""
-    return np.array(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
-
-
 def unit(given: Vector) -> Vector:
     """Return a vector of length 1; zero stays zero, as Eigen's ``normalized`` leaves it."""
     squared = dot(given, given)
@@ -57,9 +50,9 @@ def unit(given: Vector) -> Vector:
 def turned(given: Vector, last: tuple[Vector, float], first: tuple[Vector, float]) -> Vector:
     """Turn a vector about two axes, as Eigen does by quaternions, also where axes have no unit."""
     (v, a), (w, b) = ((axis * sin(0.5 * angle), cos(0.5 * angle)) for axis, angle in (last, first))
-    real, imaginary = a * b - dot(v, w), w * a + v * b + cross(v, w)
-    across = 2.0 * cross(imaginary, given)
-    return given + across * real + cross(imaginary, across)
+    real, imaginary = a * b - dot(v, w), w * a + v * b + linalg.cross(v, w)
+    across = 2.0 * linalg.cross(imaginary, given)
+    return given + across * real + linalg.cross(imaginary, across)
 
 
 def cos(angle: float) -> float:

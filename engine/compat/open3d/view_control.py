@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...base import linalg
 from ...errors import InvalidArgumentError, warn
 from ._loading import load
-from ._vectors import Vector, cos, cross, dot, number, sin, tan_half, turned, unit, vector
+from ._vectors import Vector, cos, dot, number, sin, tan_half, turned, unit, vector
 
 _TOLERANCE = 1e-6  # pixels, by which principal points may differ
 
@@ -132,9 +132,9 @@ class ViewControl:
         across = x * self.ROTATION_RADIAN_PER_PIXEL
         along = y * self.ROTATION_RADIAN_PER_PIXEL
         self._front = unit(self._front * cos(across) - self._right * sin(across))
-        self._right = unit(cross(self._up, self._front))
+        self._right = unit(linalg.cross(self._up, self._front))
         self._front = unit(self._front * cos(along) + self._up * sin(along))
-        self._up = unit(cross(self._front, self._right))
+        self._up = unit(linalg.cross(self._front, self._right))
         self._place()
 
     def translate(self, x: float, y: float, xo: float = 0.0, yo: float = 0.0) -> None:
@@ -147,7 +147,7 @@ class ViewControl:
         """Turn the picture as a drag by x pixels with Shift does."""
         turn = x * self.ROTATION_RADIAN_PER_PIXEL
         along = self._front * (dot(self._front, self._up) * (1.0 - cos(turn)))
-        self._up = self._up * cos(turn) + cross(self._front, self._up) * sin(turn) + along
+        self._up = self._up * cos(turn) + linalg.cross(self._front, self._up) * sin(turn) + along
         self._place()
 
     def camera_local_translate(self, forward: float, right: float, up: float) -> None:
@@ -197,7 +197,7 @@ class ViewControl:
 
     def _place_eye(self) -> None:
         self._front = unit(self._front)
-        self._right = unit(cross(self._up, self._front))
+        self._right = unit(linalg.cross(self._up, self._front))
         angle = self.FIELD_OF_VIEW_STEP if self.is_orthogonal else self._field_of_view
         self._view_ratio = self._zoom * self._box.get_max_extent()
         self._distance = self._view_ratio / tan_half(angle)
@@ -368,8 +368,8 @@ class ViewControl:
     def view(self) -> NDArray[np.float64]:
         """view_from_world, (4, 4), rounded to float32 as Open3D's."""
         front = unit(self._eye - self._lookat)
-        right = unit(cross(unit(self._up), front))
-        up = unit(cross(front, right))
+        right = unit(linalg.cross(unit(self._up), front))
+        up = unit(linalg.cross(front, right))
         matrix = np.eye(4)
         for place, row in enumerate((right, up, front)):
             matrix[place, :3] = row

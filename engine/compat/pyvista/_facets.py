@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base import linalg
 from ._parts import Part
 from ._renderer_view import View
 
@@ -26,15 +27,7 @@ def facet_normals(
     """
     shown, which = np.unique(faces, return_inverse=True)
     a, b, c = (part.places[part.faces[shown, k]] for k in range(3))
-    u, v = b - a, c - a
-    across = np.stack(
-        [
-            u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1],
-            u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2],
-            u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0],
-        ],
-        axis=-1,
-    )
+    across = linalg.cross(b - a, c - a)
     across /= np.maximum(np.sqrt((across * across).sum(1, keepdims=True)), 1e-300)
     normals = across[which]
     if view.is_parallel:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base import linalg
 from ...model.geometry.mesh import Mesh
 from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
@@ -123,15 +124,7 @@ class Part:
     def facing(self, front: bool, is_parallel: bool) -> Part:
         """Return the faces that show one side to the camera."""
         a, b, c = (self.places[self.faces[:, k]] for k in range(3))
-        u, v = b - a, c - a
-        across = np.stack(
-            [
-                u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1],
-                u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2],
-                u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0],
-            ],
-            axis=-1,
-        )
+        across = linalg.cross(b - a, c - a)
         towards = across[:, 2] if is_parallel else -(across * a).sum(1)
         kept = (towards >= 0.0) == front
         edges = None if self.edges is None else self.edges[kept]

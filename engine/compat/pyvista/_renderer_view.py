@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base import linalg
+
 
 @dataclass(frozen=True)
 class View:
@@ -84,17 +86,11 @@ def turned(matrix: NDArray[np.float64], normals: NDArray[Any]) -> NDArray[np.flo
     """Return normals of a surface that a 4x4 matrix moves, (N, 3) float64, not of unit length."""
     a = matrix[:3, :3]
     # The cofactors: the inverse's transpose, without its determinant, whose sign is kept.
-    cofactors = np.stack([_cross(a[(k + 1) % 3], a[(k + 2) % 3]) for k in range(3)])
+    cofactors = np.stack([linalg.cross(a[(k + 1) % 3], a[(k + 2) % 3]) for k in range(3)])
     sign = np.sign((a[0] * cofactors[0]).sum()) or 1.0
     whole = np.zeros((4, 4))
     whole[:3, :3] = cofactors * sign
     return transformed(whole, normals)
-
-
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.array(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
 
 
 def matrix_of(given: Any) -> NDArray[np.float64]:

@@ -3,8 +3,7 @@
  */
 #include "check/driver/scenes/mujoco_scene.h"
 
-#include <math.h>
-
+#include "check/driver/hostile.h"
 #include "e3d_mujoco.h"
 
 enum { SIDE = 40,
@@ -17,8 +16,6 @@ enum { SIDE = 40,
        PLANES = 3,
        TEXTURES = 3,
        TEXELS = 8 };
-
-static const float HOSTILE[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-40f, -0.0f};
 
 /* All that a frame points to; what one doesn't name stays as it was. */
 typedef struct scene {
@@ -39,7 +36,7 @@ typedef struct scene {
 static float any_float(random_stream *r, float size, int hostile)
 {
     float v = random_float(r, -size, size);
-    return hostile && random_once_in(r, 30) ? HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)] : v;
+    return hostile && random_once_in(r, 30) ? hostile_extreme(r) : v;
 }
 
 static void fill(random_stream *r, float *out, size_t count, float size, int hostile)

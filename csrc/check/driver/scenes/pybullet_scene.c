@@ -4,13 +4,12 @@
 
 #include <math.h>
 
+#include "check/driver/hostile.h"
 #include "e3d_pybullet.h"
 
 enum { SIDE = 160,
        PIXELS = SIDE * SIDE,
        MASKS = 6 };
-
-static const float HOSTILE[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-40f, -0.0f};
 
 /* All that a picture points to. */
 typedef struct scene {
@@ -20,28 +19,19 @@ typedef struct scene {
     int32_t shown[PIXELS], masks[MASKS], shown_masks[PIXELS];
 } scene;
 
-static void fill(random_stream *r, float *out, size_t count, float size, int hostile)
-{
-    for (size_t i = 0; i < count; i++) {
-        out[i] = random_float(r, -size, size);
-        if (hostile && random_once_in(r, 20))
-            out[i] = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
-    }
-}
-
 static void set_light(random_stream *r, e3d_tiny_picture *p, int hostile)
 {
-    fill(r, p->light.direction, 3, 1.0f, hostile);
-    fill(r, p->light.color, 3, 2.0f, hostile);
+    hostile_fill(r, p->light.direction, 3, 1.0f, hostile);
+    hostile_fill(r, p->light.color, 3, 2.0f, hostile);
     float shares[3];
-    fill(r, shares, 3, 1.0f, hostile);
+    hostile_fill(r, shares, 3, 1.0f, hostile);
     p->light.ambient = shares[0];
     p->light.diffuse = shares[1];
     p->light.specular = shares[2];
     p->lens.is_parallel = random_once_in(r, 3);
-    fill(r, &p->lens.scale, 1, 2.0f, hostile);
-    fill(r, &p->lens.offset, 1, 2.0f, hostile);
-    fill(r, p->shadows.clip, 16, 1.0f, hostile);
+    hostile_fill(r, &p->lens.scale, 1, 2.0f, hostile);
+    hostile_fill(r, &p->lens.offset, 1, 2.0f, hostile);
+    hostile_fill(r, p->shadows.clip, 16, 1.0f, hostile);
 }
 
 static void set_scene(random_stream *r, scene *s)
@@ -62,10 +52,10 @@ static void set_scene(random_stream *r, scene *s)
         s->shown[i] = random_below(r, MASKS + 2) - 1;
     for (int k = 0; k < MASKS; k++)
         s->masks[k] = random_below(r, 1 << 30) - 1;
-    fill(r, s->normals, 3 * pixels, 1.0f, hostile);
-    fill(r, s->depths, pixels, 1.0f, hostile);
-    fill(r, s->positions, 3 * pixels, 2.0f, hostile);
-    fill(r, s->shadows, pixels, 1.0f, hostile);
+    hostile_fill(r, s->normals, 3 * pixels, 1.0f, hostile);
+    hostile_fill(r, s->depths, pixels, 1.0f, hostile);
+    hostile_fill(r, s->positions, 3 * pixels, 2.0f, hostile);
+    hostile_fill(r, s->shadows, pixels, 1.0f, hostile);
     set_light(r, p, hostile);
     if (!random_once_in(r, 3)) {
         p->shadows.positions = s->positions;

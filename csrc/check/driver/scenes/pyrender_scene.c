@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "check/driver/hostile.h"
 #include "e3d_pyrender.h"
 
 enum { SIDE = 40,
@@ -15,8 +16,6 @@ enum { SIDE = 40,
        LIGHTS = 4,
        MAP = 6,
        TEXELS = 8 };
-
-static const float HOSTILE[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-40f, -0.0f};
 
 /* All that a frame points to; what one doesn't name stays as it was. */
 typedef struct scene {
@@ -33,21 +32,12 @@ typedef struct scene {
     float depth[PIXELS];
 } scene;
 
-static void fill(random_stream *r, float *out, size_t count, float size, int hostile)
-{
-    for (size_t i = 0; i < count; i++) {
-        out[i] = random_float(r, -size, size);
-        if (hostile && random_once_in(r, 20))
-            out[i] = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
-    }
-}
-
 static void fill_matrix(random_stream *r, double out[16], float size, int hostile)
 {
     for (int k = 0; k < 16; k++) {
         out[k] = (double)random_float(r, -size, size) + (k % 5 == 0);
         if (hostile && random_once_in(r, 100))
-            out[k] = (double)HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+            out[k] = (double)hostile_extreme(r);
     }
 }
 
@@ -79,10 +69,10 @@ static void set_draw(random_stream *r, scene *s, int number, int is_visible, int
     draw->culls_backs = random_below(r, 2);
     draw->is_wireframe = !is_visible && random_once_in(r, 3);
     draw->blends = !is_visible && random_once_in(r, 2);
-    fill(r, draw->color, 4, 1.0f, hostile);
+    hostile_fill(r, draw->color, 4, 1.0f, hostile);
     draw->metallic = random_float(r, 0.0f, 1.0f);
     draw->roughness = random_float(r, 0.0f, 1.0f);
-    fill(r, draw->emissive, 3, 0.5f, hostile);
+    hostile_fill(r, draw->emissive, 3, 0.5f, hostile);
     for (int k = 0; k < E3D_PYR_SLOTS; k++)
         draw->textures[k] = draw->uvs && random_once_in(r, 2) ? &s->texture : NULL;
     draw->first_light = random_below(r, LIGHTS);
@@ -97,9 +87,9 @@ static void set_light(random_stream *r, scene *s, int number, int hostile)
 {
     e3d_pyr_light *light = &s->lights[number];
     *light = (e3d_pyr_light){.kind = random_below(r, 3), .cone_scale = 3.0f, .cone_offset = -1.5f};
-    fill(r, light->color, 3, 3.0f, hostile);
-    fill(r, light->position, 3, 3.0f, hostile);
-    fill(r, light->direction, 3, 1.0f, hostile);
+    hostile_fill(r, light->color, 3, 3.0f, hostile);
+    hostile_fill(r, light->position, 3, 3.0f, hostile);
+    hostile_fill(r, light->direction, 3, 1.0f, hostile);
     fill_matrix(r, light->shadow_from_world, 0.5f, hostile);
     light->shadow_map = light->kind != E3D_PYR_POINT && random_once_in(r, 2) ? s->map : NULL;
     light->shadow_size = MAP;
@@ -138,9 +128,9 @@ static void set_frame(random_stream *r, scene *s, int hostile)
     frame->shading = random_below(r, 4);
     fill_matrix(r, frame->clip_from_world, 0.5f, hostile);
     frame->clip_from_world[15] = 3.0;
-    fill(r, frame->eye, 3, 3.0f, hostile);
-    fill(r, frame->ambient, 3, 1.0f, hostile);
-    fill(r, frame->background, 4, 1.0f, hostile);
+    hostile_fill(r, frame->eye, 3, 3.0f, hostile);
+    hostile_fill(r, frame->ambient, 3, 1.0f, hostile);
+    hostile_fill(r, frame->background, 4, 1.0f, hostile);
     frame->point_size = random_float(r, 0.0f, 9.0f);
     frame->depth_near = 0.1;
     frame->depth_far = random_once_in(r, 2) ? (double)INFINITY : 10.0;
@@ -154,11 +144,11 @@ static void set_frame(random_stream *r, scene *s, int hostile)
 static void set_scene(random_stream *r, scene *s)
 {
     int hostile = random_once_in(r, 2), visible = random_below(r, DRAWS + 1);
-    fill(r, s->positions, 3 * VERTICES, 2.0f, hostile);
-    fill(r, s->normals, 3 * VERTICES, 1.0f, hostile);
-    fill(r, s->uvs, 2 * VERTICES, 3.0f, hostile);
-    fill(r, s->colors, 4 * VERTICES, 1.0f, hostile);
-    fill(r, s->map, MAP * MAP, 1.0f, hostile);
+    hostile_fill(r, s->positions, 3 * VERTICES, 2.0f, hostile);
+    hostile_fill(r, s->normals, 3 * VERTICES, 1.0f, hostile);
+    hostile_fill(r, s->uvs, 2 * VERTICES, 3.0f, hostile);
+    hostile_fill(r, s->colors, 4 * VERTICES, 1.0f, hostile);
+    hostile_fill(r, s->map, MAP * MAP, 1.0f, hostile);
     for (int i = 0; i < 3 * PIECES; i++)
         s->indices[i] = random_below(r, VERTICES);
     set_texture(r, s);

@@ -86,7 +86,7 @@ PROBE = "#include <Python.h>\n#include <math.h>\n"
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
-DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md"]
+DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md", "ttf", "txt"]
 # Models that nothing in the package draws: in the source, but not in the wheel.
 SOURCE_ONLY = ["models/globe.obj", "models/globe.mtl", "models/globe_stand.*", "models/nautilus*"]
 

@@ -78,6 +78,7 @@ _PUBLIC = {
     "Look": "stage.look",
     "render": "stage.render",
     "Canvas": "rendering.canvas",
+    "Font": "rendering.fonts.font",
     "Window": "apps.viewer.window",
     "show": "apps.viewer.show",
     "backends": "rendering.backend_selection",

@@ -81,6 +81,7 @@ from .model.spatial.rays import RayHit as RayHit
 from .model.spatial.rays import RayHits as RayHits
 from .rendering.backend_selection import backends as backends
 from .rendering.canvas import Canvas as Canvas
+from .rendering.fonts.font import Font as Font
 from .rendering.frame import Frame as Frame
 from .rendering.options import RenderOptions as RenderOptions
 from .stage.look import Look as Look

@@ -85,3 +85,54 @@ void e3d_canvas_text(const e3d_canvas *canvas, double x, double y, const uint8_t
 /* Finds the size in pixels of a text's cells: its longest line by its number of lines. */
 void e3d_text_size(const uint8_t *codes, size_t length, int32_t scale, int64_t *width,
                    int64_t *height);
+
+/* A number of 1/256 pixel a unit of a font. */
+typedef struct e3d_ratio {
+    int32_t numerator, denominator; /* the denominator is positive */
+} e3d_ratio;
+
+/* The contours of a glyph, as TrueType has them: points of quadratic curves, and control points between them. */
+typedef struct e3d_outline {
+    const int16_t *xy;       /* x, y of each point: units of the font, x right, y up */
+    const uint8_t *on_curve; /* of each point: whether the curve passes through it */
+    const int32_t *ends;     /* of each contour: the number of the point behind its last one; none is empty */
+    int32_t points, contours;
+    e3d_ratio scale_x, scale_y;
+    int32_t shift; /* to the right, 1/256 pixel */
+} e3d_outline;
+
+/* Pixels around a glyph's origin, y down. */
+typedef struct e3d_glyph_box {
+    int32_t left, top, width, height;
+} e3d_glyph_box;
+
+/* What the edges add to a pixel: how high they are, and the doubled area to the left of them. */
+typedef struct e3d_cell {
+    int32_t cover, area;
+} e3d_cell;
+
+/* Finds the pixels that an outline may cover. */
+e3d_glyph_box e3d_outline_box(const e3d_outline *outline);
+
+/* Finds the alpha of each pixel of that box. `cells` are (width + 1) x height, all 0. */
+void e3d_outline_alphas(const e3d_outline *outline, e3d_glyph_box box, e3d_cell *cells, uint8_t *alphas);
+
+/* Each glyph has one picture for each quarter of a pixel that its origin may be at. */
+#define E3D_GLYPH_PHASES 4
+
+typedef struct e3d_glyph {
+    size_t first; /* its first alpha */
+    e3d_glyph_box box;
+    int32_t advance; /* to the next glyph's origin, 1/256 pixel */
+} e3d_glyph;
+
+typedef struct e3d_font {
+    const uint8_t *alphas;
+    const e3d_glyph *glyphs; /* E3D_GLYPH_PHASES of each */
+    int32_t ascent, line_height; /* pixels: from the top of a line to its baseline, and to the next line */
+} e3d_font;
+
+/* Draws text; the first line begins at (x, y), its top left corner. `glyphs` are numbers of the font's glyphs; -1 starts a new
+ * line. */
+void e3d_canvas_glyphs(const e3d_canvas *canvas, double x, double y, const int32_t *glyphs, size_t length,
+                       const e3d_font *font, e3d_rgba color);

@@ -6,7 +6,8 @@ Out: pixels of the framebuffer. Names of algorithms and kinds of arguments are e
 """
 
 from e3d_canvas cimport *
-from libc.stdint cimport int64_t, uint8_t
+from libc.stdint cimport int16_t, int32_t, int64_t, uint8_t
+from libc.stdlib cimport calloc, free
 
 MAX_SIDE = E3D_CANVAS_MAX_SIDE
 LINE_ALGORITHMS = {"bresenham": E3D_LINE_BRESENHAM, "dda": E3D_LINE_DDA}
@@ -128,6 +129,103 @@ cdef class Surface:
         if length > 0:
             with nogil:
                 e3d_canvas_text(&self.canvas, x, y, &codes[0], length, scale, native_color)
+
+    def glyphs(self, double x, double y, const int32_t[::1] numbers not None, Glyphs font not None,
+               const uint8_t[::1] color not None):
+        """Draw glyphs of a font; the caller keeps others from adding to it."""
+        cdef e3d_rgba native_color = rgba(color)
+        cdef Py_ssize_t k
+        for k in range(numbers.shape[0]):
+            if numbers[k] >= font.count:
+                raise ValueError(f"the font has {font.count} glyphs, not {numbers[k] + 1}")
+        if font.count > 0 and numbers.shape[0] > 0:
+            font.draw(&self.canvas, x, y, numbers, native_color)
+
+
+cdef class Glyphs:
+    """The pictures of a font's glyphs, as many as were added.
+
+    In: pixels from the top of a line to its baseline, and to the next line.
+    """
+
+    cdef bytearray alphas, glyph_bytes
+    cdef readonly int count
+    cdef int ascent, line_height
+
+    def __cinit__(self, int ascent, int line_height):
+        self.alphas, self.glyph_bytes = bytearray(), bytearray()
+        self.ascent, self.line_height = ascent, line_height
+
+    cdef void draw(self, const e3d_canvas *canvas, double x, double y,
+                   const int32_t[::1] numbers, e3d_rgba color) noexcept:
+        cdef uint8_t *alphas = self.alphas
+        cdef uint8_t *glyphs = self.glyph_bytes
+        cdef e3d_font font
+        font.alphas, font.glyphs = alphas, <const e3d_glyph *>glyphs
+        font.ascent, font.line_height = self.ascent, self.line_height
+        e3d_canvas_glyphs(canvas, x, y, &numbers[0], numbers.shape[0], &font, color)
+
+    def add(self, const int16_t[:, ::1] points not None, const uint8_t[::1] on_curve not None,
+            const int32_t[::1] ends not None, int across, int units_across, int up, int units_up,
+            int advance) -> int:
+        """Draw a glyph at each quarter of a pixel; return its number.
+
+        Parameters
+        ----------
+        points : (N, 2), on_curve : (N,), ends : (contours,)
+            The outline: see `e3d_outline`.
+        across, units_across, up, units_up : int
+            How many 1/256 pixel so many units of the font are.
+        advance : int
+            To the next glyph's origin, in 1/256 pixel.
+        """
+        cdef e3d_outline outline
+        cdef int phase
+        if units_across < 1 or units_up < 1:
+            raise ValueError("a scale has a positive number of units")
+        if points.shape[1] != 2 or on_curve.shape[0] != points.shape[0]:
+            raise ValueError("points are (N, 2), and on_curve has as many")
+        check_ends(ends, points.shape[0])
+        outline.points, outline.contours = <int32_t>points.shape[0], <int32_t>ends.shape[0]
+        outline.xy = &points[0, 0] if outline.points else NULL
+        outline.on_curve = &on_curve[0] if outline.points else NULL
+        outline.ends = &ends[0] if outline.contours else NULL
+        outline.scale_x = e3d_ratio(across, units_across)
+        outline.scale_y = e3d_ratio(up, units_up)
+        for phase in range(E3D_GLYPH_PHASES):
+            outline.shift = phase * 256 // E3D_GLYPH_PHASES
+            self.add_phase(&outline, advance)
+        self.count += 1
+        return self.count - 1
+
+    cdef int add_phase(self, const e3d_outline *outline, int advance) except -1:
+        cdef e3d_glyph glyph
+        glyph.first, glyph.advance, glyph.box = len(self.alphas), advance, e3d_outline_box(outline)
+        cdef size_t cells_count = <size_t>(glyph.box.width + 1) * glyph.box.height
+        cdef size_t alphas_count = <size_t>glyph.box.width * glyph.box.height
+        self.alphas.extend(bytes(alphas_count))
+        cdef uint8_t *alphas = self.alphas
+        cdef e3d_cell *cells = NULL
+        if cells_count > 0:
+            cells = <e3d_cell *>calloc(cells_count, sizeof(e3d_cell))
+            if cells == NULL:
+                raise MemoryError()
+            e3d_outline_alphas(outline, glyph.box, cells, alphas + glyph.first)
+            free(cells)
+        self.glyph_bytes.extend((<uint8_t *>&glyph)[:sizeof(e3d_glyph)])
+        return 0
+
+
+cdef int check_ends(const int32_t[::1] ends, Py_ssize_t points) except -1:
+    cdef Py_ssize_t k
+    cdef int32_t last = 0
+    for k in range(ends.shape[0]):
+        if ends[k] <= last:
+            raise ValueError("each contour has a point")
+        last = ends[k]
+    if last != points:
+        raise ValueError(f"the contours have {last} points, not {points}")
+    return 0
 
 
 def text_size(const uint8_t[::1] codes not None, int scale) -> tuple[int, int]:

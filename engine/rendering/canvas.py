@@ -26,6 +26,7 @@ from ..choices import ColorLike
 from ..errors import InvalidArgumentError
 from ..model.materials.colors import eight_bit_or_linear, holds_colors, srgb_bytes
 from ..model.materials.display_colors import rgba_codes
+from .fonts.font import Font, checked_text
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -325,39 +326,55 @@ class Canvas(FixedNames):
         string: str,
         color: ColorLike,
         *,
+        font: Font | None = None,
         scale: int = 1,
         background: ColorLike | None = None,
     ) -> None:
-        """Write text in the built-in bitmap font, whose cells are 8 x 14 pixels.
+        """Write text in a font, or in the built-in bitmap font, whose cells are 8 x 14 pixels.
 
         Parameters
         ----------
         x, y : float
-            The top left corner of the first cell, in pixels.
+            The top left corner of the first line, in pixels.
         string : str
-            ASCII and the letters àâçèéêëîïôùûœÀÇÉ are drawn, ``\\n`` starts a new line, a tab
-            advances to the next multiple of four columns, and other characters show as a hollow
-            box.
+            ``\\n`` starts a new line, a tab advances to the next multiple of four characters, and
+            characters that the font lacks show as a hollow box. The bitmap font has ASCII and the
+            letters àâçèéêëîïôùûœÀÇÉ.
         color : (r, g, b) or (r, g, b, a)
             Integers 0 to 255.
+        font : Font, optional
+            Its glyphs are antialiased. Without one, the bitmap font is used.
         scale : int, optional
-            Pixels of the canvas for one of the font, 1 to 4096.
+            Pixels of the canvas for one of the bitmap font, 1 to 4096.
         background : (r, g, b) or (r, g, b, a), optional
-            Draw the text on a box of this colour, with a margin of ``2 * scale`` pixels. A
-            translucent box keeps text legible on any picture.
+            Draw the text on a box of this colour, with a margin of ``2 * scale`` pixels, or an
+            eighth of the font's size. A translucent box keeps text legible on any picture.
+
+        Raises
+        ------
+        InvalidArgumentError
+            Also if both a font and a scale are given: a font has its size.
         """
-        (x, y), codes, scale = _numbers("x and y", x, y), _codes(string), _scale(scale)
+        (x, y), ink = _numbers("x and y", x, y), _color_bytes(color)
+        codes, scale = _codes(string), _scale(scale)
+        if font is not None and (not isinstance(font, Font) or scale != 1):
+            raise InvalidArgumentError(
+                f"font must be a Font, without a scale, not {shown(font)} with {scale}"
+            )
         if background is not None and string:
-            width, height = native.text_size(codes, scale)
-            pad = 2 * scale
+            width, height = font.text_size(string) if font else native.text_size(codes, scale)
+            pad = round(font.size / 8) if font else 2 * scale
             left, top = np.floor((x, y)) - pad
             _color_bytes(background, "background")
             self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
-        self._surface.text(x, y, codes, scale, _color_bytes(color))
+        if font is None:
+            self._surface.text(x, y, codes, scale, ink)
+        else:
+            font._draw(self._surface, x, y, string, ink)
 
 
 def text_size(string: str, scale: int = 1) -> tuple[int, int]:
-    """Return the size of a text in the built-in font.
+    """Return the size of a text in the built-in bitmap font.
 
     Parameters
     ----------
@@ -461,9 +478,7 @@ def _scale(scale: int) -> int:
 
 
 def _codes(string: str) -> bytes:
-    if not isinstance(string, str):
-        raise InvalidArgumentError(f"string must be a str, not {shown(string)}")
-    characters = string.expandtabs(_TAB_COLUMNS).encode("utf-32-le", "surrogatepass")
+    characters = checked_text(string).expandtabs(_TAB_COLUMNS).encode("utf-32-le", "surrogatepass")
     codes = np.frombuffer(characters, "<u4")
     if codes.size and (codes.max() > 126 or codes.min() < 32):
         unique, places = np.unique(codes, return_inverse=True)

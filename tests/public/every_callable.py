@@ -212,6 +212,8 @@ RIGHT: dict[str, Any] = {
     "NavigationGrid.thing": mesh,
     "Canvas.triangle.a": (1.0, 2.0),
     "Canvas.triangle.b": (9.0, 2.0),
+    "Font.face": "mono",
+    "Font.size": 12.0,
     "linalg.multiply.a": np.eye(4),
     "linalg.multiply.b": np.eye(4),
     "linalg.quaternion_multiply.a": (0, 0, 0, 1),

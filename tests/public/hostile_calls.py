@@ -510,6 +510,7 @@ CALLS = {
     ),
     "Impostor": (lambda **a: e3d.detail.Impostor(mesh(), **a), {"views": 2, "texels": 8}),
     "Canvas": (lambda **a: e3d.Canvas(**a), {"size": (4, 4)}),
+    "Font": (lambda **a: e3d.Font(**a), {"face": "sans", "size": 12}),
     "Canvas.point": (on_canvas("point"), {"x": 1, "y": 1, "color": (1, 2, 3)}),
     "Canvas.points": (on_canvas("points"), {"xy": [(1, 1)], "color": (1, 2, 3)}),
     "Canvas.line": (

@@ -97,6 +97,7 @@ COPIED = {
         e3d.navigation.NavigationGrid(e3d.plane((4, 4))), 0.0, 0.0
     ),
     "Canvas": lambda: e3d.Canvas((4, 3)),
+    "Font": lambda: e3d.Font("sans", 12),
     "Frame": frame,
     "ResourceStats": lambda: e3d.resources.Resources().stats,
     "Resource": lambda: resource(),

@@ -1,0 +1,1 @@
+"""The built-in fonts: outlines from TrueType files, sizes, and the lengths of texts."""

@@ -8,7 +8,6 @@ Out: pixels of a canvas, by `Canvas.text`; widths in pixels. All is integer arit
 from __future__ import annotations
 
 from functools import cache
-from importlib.resources import files
 from threading import Lock
 from typing import Literal
 
@@ -162,6 +161,8 @@ def font(face: Face, size: float) -> Font:
 
 @cache
 def _read(face: str) -> TrueType:
+    from importlib.resources import files  # takes longer to import than all of this
+
     return TrueType((files("engine3d.data") / "fonts" / f"{face}.ttf").read_bytes())
 
 

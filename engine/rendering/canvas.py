@@ -355,22 +355,21 @@ class Canvas(FixedNames):
         InvalidArgumentError
             Also if both a font and a scale are given: a font has its size.
         """
-        (x, y), ink = _numbers("x and y", x, y), _color_bytes(color)
-        codes, scale = _codes(string), _scale(scale)
+        (x, y), ink, scale = _numbers("x and y", x, y), _color_bytes(color), _scale(scale)
         if font is not None and (not isinstance(font, Font) or scale != 1):
             raise InvalidArgumentError(
                 f"font must be a Font, without a scale, not {shown(font)} with {scale}"
             )
+        size = font.text_size(string) if font else text_size(string, scale)
         if background is not None and string:
-            width, height = font.text_size(string) if font else native.text_size(codes, scale)
-            pad = round(font.size / 8) if font else 2 * scale
-            left, top = np.floor((x, y)) - pad
             _color_bytes(background, "background")
+            pad = round(font.size / 8) if font else 2 * scale
+            (left, top), (width, height) = np.floor((x, y)) - pad, size
             self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
-        if font is None:
-            self._surface.text(x, y, codes, scale, ink)
-        else:
+        if font:
             font._draw(self._surface, x, y, string, ink)
+        else:
+            self._surface.text(x, y, _codes(string), scale, ink)
 
 
 def text_size(string: str, scale: int = 1) -> tuple[int, int]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..model.materials.colors import srgb_to_linear_table
 from ..rendering.frame import Frame, Output
+from .overlays.lettering import text_font
 from .overlays.theme import Theme
 from .views.viewpoint import Sphere
 
@@ -73,7 +74,7 @@ def split(frame: Frame, bounds: Sphere, theme: Theme) -> None:
     height, width = frame.height // 3, frame.width // 3
     third = slice(1, 3 * height, 3), slice(1, 3 * width, 3)
     covered, whole = frame.depth[third] > 0, frame.color[third].copy()
-    canvas = frame.canvas()
+    canvas, font = frame.canvas(), text_font(1)
     for row, names in enumerate(SPLIT):
         for column, name in enumerate(names):
             picture = whole.copy()
@@ -82,7 +83,9 @@ def split(frame: Frame, bounds: Sphere, theme: Theme) -> None:
                 picture[covered, :3] = picture_of(name, values, bounds)[covered]
             top, left = row * height, column * width
             frame.color[top : top + height, left : left + width] = picture
-            canvas.text(left + INSET, top + INSET, name, theme.text, background=theme.block)
+            canvas.text(
+                left + INSET, top + INSET, name, theme.text, font=font, background=theme.block
+            )
 
 
 def whole_pixel(x: int, y: int, size: tuple[int, int]) -> tuple[int, int]:

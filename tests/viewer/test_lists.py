@@ -7,9 +7,10 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.apps.viewer.list_panels import Row, _fitted
+from engine3d.apps.viewer.list_panels import Row, fitted
 from engine3d.apps.viewer.recording import FRAMES
 from engine3d.apps.viewer.viewer import Viewer
+from engine3d.stage.overlays.lettering import text_font
 from engine3d.stage.overlays.theme import DARK, LIGHT
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
@@ -138,10 +139,14 @@ def test_a_long_list_scrolls_and_the_wheel_elsewhere_zooms():
     assert viewer.view.distance < distance
 
 
-@pytest.mark.parametrize("columns", [12, 20, 44])
-def test_rows_are_as_wide_as_their_panel(columns):
+@pytest.mark.parametrize("width", [60, 96, 160, 350])
+def test_rows_fit_their_panel(width):
+    font = text_font(1)
     for row in (Row("a"), Row("[x] name", "12"), Row("x" * 60, "7"), Row("a.obj", "/long/" * 20)):
-        assert len(_fitted(row, columns)) == columns
+        text, detail = fitted(row, width, font)
+        assert font.width(text) + font.width(detail) <= width and (text or width < 96)
+        assert text == row.text or text.endswith("…")
+        assert detail == row.detail or detail.startswith("…")
 
 
 def test_the_theme_changes_texts_and_the_background_of_models():

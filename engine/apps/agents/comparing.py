@@ -15,6 +15,7 @@ from ...errors import InvalidArgumentError
 from ...io.loaders import load_texture
 from ...io.output.animation_files import PICTURE_SUFFIXES
 from ...rendering.canvas import Canvas
+from ...stage.overlays.lettering import text_font
 from ...stage.overlays.theme import LIGHT
 from ..golden.comparison import compare
 from ..golden.difference_picture import difference_picture
@@ -116,6 +117,8 @@ def _side_by_side(panes: list[NDArray[np.uint8]], names: tuple[str, ...]) -> NDA
     left = 0
     for pane, name in zip(panes, names, strict=True):
         canvas.pixels[: pane.shape[0], left : left + pane.shape[1]] = pane
-        canvas.text(left + _INSET, _INSET, name, LIGHT.text, background=LIGHT.block)
+        canvas.text(
+            left + _INSET, _INSET, name, LIGHT.text, font=text_font(1), background=LIGHT.block
+        )
         left += pane.shape[1] + _GAP
     return canvas.pixels

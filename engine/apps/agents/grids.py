@@ -19,7 +19,8 @@ from ..._native.images import encode_png
 from ...base.numbers import shown as shown_value
 from ...errors import InvalidArgumentError
 from ...io.output.animation_saving import save_animation
-from ...rendering.canvas import Canvas, text_size
+from ...rendering.canvas import Canvas
+from ...stage.overlays.lettering import text_font
 from ...stage.overlays.theme import LIGHT
 from ..sheet.contact_sheet import Sheet, contact_sheet
 from .pictures import Picture, Request, Studio, check_pixel, visible_parts
@@ -129,14 +130,14 @@ def draw_turntable(
         raise InvalidArgumentError(f"size: too small for {frames} frames")
     canvas = Canvas((width, height))
     canvas.clear((255, 255, 255, 255))
-    cells = []
+    cells, font = [], text_font(1)
     turn = _turn(studio, things, frames, elevation, cell, objects)
     for number, (azimuth, drawn) in enumerate(turn):
         x, y = (number % columns) * (cell[0] + _GAP), number // columns * (cell[1] + _GAP)
         canvas.pixels[y : y + cell[1], x : x + cell[0]] = drawn.pixels
-        caption = f"{azimuth:g} deg"
-        place = x + _CAPTION, y + cell[1] - text_size(caption)[1] - _CAPTION
-        canvas.text(*place, caption, LIGHT.text, background=LIGHT.block)
+        caption = f"{azimuth:g}°"
+        place = x + _CAPTION, y + cell[1] - font.line_height - _CAPTION
+        canvas.text(*place, caption, LIGHT.text, font=font, background=LIGHT.block)
         cells.append(_cell(azimuth, [x, y, *cell], drawn))
     return GridPicture(canvas.pixels, {"size": [width, height], "cells": cells})
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
-from ...rendering.canvas import text_size
 from ...rendering.frame import Frame
+from ...stage.overlays.lettering import text_font
 from ...stage.overlays.selection_outline import OUTLINE, outline_pixels
 from ...stage.overlays.theme import LIGHT
 from ...stage.visibility import mesh_of
@@ -78,10 +78,10 @@ def draw_names(frame: Frame, shown_: Shown) -> None:
     """
     canvas = frame.canvas()
     taken: list[tuple[int, int, int, int]] = []
-    scale = 2 if frame.height >= 900 else 1
+    font = text_font(2 if frame.height >= 900 else 1)
     for name, counted in shown_.visible(frame)[:MOST_LABELS]:
         x, y, width, height = counted.box
-        wide, high = text_size(name, scale)
+        wide, high = font.text_size(name)
         shows = frame.object_id[y : y + height, x : x + width] == counted.key
         column, middle = _broadest(shows)
         left = x + column - wide // 2
@@ -92,7 +92,7 @@ def draw_names(frame: Frame, shown_: Shown) -> None:
         if free:
             top = min(free, key=lambda row: (abs(row - middle), row))
             taken.append((left, top, wide, high))
-            canvas.text(left, top, name, LIGHT.text, scale=scale, background=LIGHT.block)
+            canvas.text(left, top, name, LIGHT.text, font=font, background=LIGHT.block)
 
 
 def _broadest(shows: NDArray[np.bool_]) -> tuple[int, int]:

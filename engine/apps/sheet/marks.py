@@ -9,7 +9,9 @@ import math
 
 import numpy as np
 
-from ...rendering.canvas import Canvas, text_size
+from ...rendering.canvas import Canvas
+from ...rendering.fonts.font import Font
+from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import AXIS_COLORS
 from ...stage.overlays.theme import DARK, Rgba, Theme
 from .layout import Rectangle
@@ -33,14 +35,16 @@ def length_text(value: float, unit: str | None) -> str:
     return text if not unit else f"{text} {unit}"
 
 
-def short(text: str, columns: int) -> str:
-    """Return a text shortened to a maximum length, by omitting its middle."""
-    if len(text) <= columns:
+def short(text: str, width: int, font: Font) -> str:
+    """Return a text shortened to a maximum width in pixels, by omitting its middle."""
+    if font.width(text) <= width:
         return text
-    if columns < 8:
-        return text[: max(columns, 0)]
-    head = (columns - 3) * 3 // 5
-    return text[:head] + "..." + text[len(text) - (columns - 3 - head) :]
+    for kept in range(len(text) - 1, 5, -1):
+        head = kept * 3 // 5
+        shortened = f"{text[:head]}…{text[head - kept :]}"
+        if font.width(shortened) <= width:
+            return shortened
+    return font.fitted(text, max(width, 0))
 
 
 def line_color(theme: Theme) -> Rgba:
@@ -53,9 +57,9 @@ def draw_width(
 ) -> None:
     """Draw a dimension below a drawing, between two columns at a row."""
     first, last = _draw_length(canvas, left, right, y, theme, scale, is_level=True)
-    width, _ = text_size(text, scale)
-    place = max((first + last + 1 - width) // 2, 2)
-    canvas.text(place, y + (_TICK + 2) * scale, text, theme.text, scale=scale)
+    font = text_font(scale)
+    place = max((first + last + 1 - font.width(text)) // 2, 2)
+    canvas.text(place, y + (_TICK + 1) * scale, text, theme.text, font=font)
 
 
 def draw_height(
@@ -63,7 +67,7 @@ def draw_height(
 ) -> None:
     """Draw a dimension at the left of a drawing; its text reads from below."""
     first, last = _draw_length(canvas, top, bottom, x, theme, scale, is_level=False)
-    width, height = text_size(text, scale)
+    width, height = text_font(scale).text_size(text)
     # Not over the view's name.
     y = max((first + last + 1 - width) // 2, _NAME * scale)
     _text_upward(canvas, x - (_TICK + 2) * scale - height, y, text, theme.text, scale)
@@ -106,15 +110,17 @@ def _arrow(canvas: Canvas, tip, way, color: Rgba, scale: int) -> None:
 
 def _text_upward(canvas: Canvas, x: float, y: float, text: str, color: Rgba, scale: int) -> None:
     """Write a text rotated by a quarter turn, from bottom to top."""
-    width, height = text_size(text, scale)
+    font = text_font(scale)
+    width, height = font.text_size(text)
     turned = Canvas(np.zeros((height, width, 4), np.uint8))
-    turned.text(0, 0, text, color, scale=scale)
+    turned.text(0, 0, text, color, font=font)
     ink = np.rot90(turned.pixels)
     left, top = round(x), round(y)
     window = canvas.pixels[max(top, 0) : top + width, max(left, 0) : left + height]
     ink = ink[max(-top, 0) :, max(-left, 0) :][: window.shape[0], : window.shape[1]]
-    marked = ink[..., 3] > 0
-    window[marked] = ink[marked]
+    alpha = ink[..., 3:].astype(np.uint16)
+    mixed = alpha * ink[..., :3] + (255 - alpha) * window[..., :3]
+    window[..., :3] = (mixed + 127) // 255
 
 
 def draw_triad(
@@ -137,9 +143,9 @@ def draw_triad(
             continue
         end = round(x + right * length), round(y - up * length)
         canvas.line(x, y, *end, color, width=2 * scale)
-        half_width, half_height = (side / 2 for side in text_size(letter, scale))
+        half_width, half_height = (side / 2 for side in text_font(scale).text_size(letter))
         place = x + right * letters - half_width, y - up * letters - half_height
-        canvas.text(round(place[0]), round(place[1]), letter, color, scale=scale)
+        canvas.text(round(place[0]), round(place[1]), letter, color, font=text_font(scale))
 
 
 def draw_frame(canvas: Canvas, rectangle: Rectangle, theme: Theme) -> None:
@@ -155,13 +161,13 @@ def draw_scale_bar(
     """Draw a bar of a round length; return where its text ends."""
     length = round_length(160 * scale / pixels_per_unit)
     pixels = max(2, round(length * pixels_per_unit))
-    height = 4 * scale
-    middle = y + text_size("M", scale)[1] // 2
+    height, font = 4 * scale, text_font(scale)
+    middle = y + font.line_height // 2
     canvas.rectangle(x, middle - height // 2, pixels, height, theme.text, fill=False)
     canvas.rectangle(x, middle - height // 2, pixels // 2, height, theme.text)
     text = length_text(length, unit)
-    canvas.text(x + pixels + 8 * scale, y, text, theme.text, scale=scale)
-    return x + pixels + 8 * scale + text_size(text, scale)[0]
+    canvas.text(x + pixels + 8 * scale, y, text, theme.text, font=font)
+    return x + pixels + 8 * scale + font.width(text)
 
 
 def round_length(most: float) -> float:

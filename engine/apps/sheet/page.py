@@ -13,9 +13,10 @@ from ...base.image_size import check_size
 from ...errors import InvalidArgumentError, printable
 from ...model.materials.material import Material
 from ...model.scene.cameras import Camera
-from ...rendering.canvas import Canvas, text_size
+from ...rendering.canvas import Canvas
 from ...rendering.support_functions import support_of_scene
 from ...stage.look import Look
+from ...stage.overlays.lettering import heading_font, text_font
 from ...stage.viewed_scene import ViewedScene
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from . import marks
@@ -166,16 +167,15 @@ class _Page:
         corner = 28 * text
         if panel.spec.camera is None:
             marks.draw_triad(window, corner, height - corner, panel.pose[:3, :3], theme, text)
-        columns = (width - 16 * text) // (8 * text)
-        name = marks.short(printable(panel.spec.name), columns)
-        window.text(8 * text, 7 * text, name, theme.title, scale=text)
+        font, room = text_font(text), width - 16 * text
+        name = marks.short(printable(panel.spec.name), room, font)
+        window.text(8 * text, 5 * text, name, theme.title, font=font)
         if panel.reason is not None:
-            room = columns - len(name) - 2
+            place = font.width(name) + 14 * text
             reason = f"blank: {panel.reason.sentence}"
-            if len(reason) > room:
-                reason = marks.short(f"blank: {panel.reason.word}", room)
-            place = (8 + 8 * (len(name) + 2)) * text
-            window.text(place, 7 * text, reason, theme.key, scale=text)
+            if font.width(reason) > room - place:
+                reason = marks.short(f"blank: {panel.reason.word}", room - place, font)
+            window.text(8 * text + place, 5 * text, reason, theme.key, font=font)
         marks.draw_frame(canvas, panel.rectangle, studio.paper)
 
     def _draw_dimensions(self, window: Canvas, panel: Panel, studio: PanelRenderer) -> None:
@@ -196,13 +196,12 @@ class _Page:
     def _write_title(self, told: dict[str, Any], studio: PanelRenderer) -> None:
         x, y, width, _ = self._area
         text, theme = self._text, studio.paper
-        columns = (width - 2 * _MARGIN * text) // (8 * text)
-        facts = _facts(told)
-        facts = facts if 2 * len(told["title"]) + len(facts) + 4 <= columns else ""
-        title = marks.short(told["title"], columns // 2)
-        self._canvas.text(x + _MARGIN * text, y + 7 * text, title, theme.text, scale=2 * text)
-        place = x + width - _MARGIN * text - text_size(facts, text)[0]
-        self._canvas.text(place, y + 14 * text, facts, theme.text, scale=text)
+        heading, font, room = heading_font(text), text_font(text), width - 2 * _MARGIN * text
+        title, facts = marks.short(told["title"], room, heading), _facts(told)
+        self._canvas.text(x + _MARGIN * text, y + 6 * text, title, theme.text, font=heading)
+        if heading.width(title) + font.width(facts) + 2 * _MARGIN * text <= room:
+            place = x + width - _MARGIN * text - font.width(facts)
+            self._canvas.text(place, y + 13 * text, facts, theme.text, font=font)
 
     def _write_foot(self, told: dict[str, Any], scale: float, studio: PanelRenderer) -> None:
         x, y, width, height = self._area
@@ -212,10 +211,10 @@ class _Page:
         if any(view["to_scale"] for view in told["views"]) and told["bounds"] is not None:
             end = marks.draw_scale_bar(self._canvas, end, row, scale, self._unit, theme, text)
         line = _sizes(told, self._unit)
-        columns = (x + width - _MARGIN * text - end) // (8 * text) - 3
-        if len(line) <= columns:
-            place = x + width - _MARGIN * text - text_size(line, text)[0]
-            self._canvas.text(place, row, line, theme.text, scale=text)
+        font = text_font(text)
+        place = x + width - _MARGIN * text - font.width(line)
+        if place >= end + 2 * _MARGIN * text:
+            self._canvas.text(place, row, line, theme.text, font=font)
 
 
 def _reaches(specs, extents) -> list[Reach]:
@@ -241,4 +240,4 @@ def _sizes(told: dict[str, Any], unit: str | None) -> str:
     if told["bounds"] is None:
         return f"no size   {told['up']} is up"
     sizes = " x ".join(marks.length_text(size, None) for size in told["bounds"]["size"])
-    return f"X x Y x Z   {sizes}{' ' + unit if unit else ''}   {told['up']} is up"
+    return f"X × Y × Z   {sizes}{' ' + unit if unit else ''}   {told['up']} is up"

@@ -13,9 +13,10 @@ import numpy as np
 from ...base import linalg
 from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
-from ...rendering.canvas import Canvas, text_size
+from ...rendering.canvas import Canvas
 from ...rendering.frame import Frame
 from ...stage.blank import Reason, reason_of
+from ...stage.overlays.lettering import text_font
 from ...stage.overlays.theme import DARK, LIGHT, Theme
 from .caps import Caps, find_caps, paint_caps
 from .cutting import Plane
@@ -89,7 +90,7 @@ class Panel:
         """Return the theme whose texts can be read on the panel."""
         if not self.spec.is_picture:
             return paper
-        corner = self.frame.color[: text_size("")[1] * 2, :, :3]
+        corner = self.frame.color[: 2 * text_font(1).line_height, :, :3]
         return LIGHT if float(corner.mean()) > _MIDDLE else DARK
 
     @property

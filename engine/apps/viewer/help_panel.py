@@ -7,16 +7,17 @@ from __future__ import annotations
 
 import textwrap
 
-from ...rendering.canvas import text_size
-from ...stage.overlays.overlay import LINE_GAP, PADDING, place, text_scale
+from ...rendering.fonts.font import Font
+from ...stage.overlays.lettering import text_font
+from ...stage.overlays.overlay import PADDING, place, text_scale
 from ...stage.overlays.theme import DARK, Theme
 from .keymap import GESTURES, SECTIONS
 
 #: A row is a key and its action; titles and empty rows have no second part.
 Row = tuple[str, str]
 GAP: Row = ("", "")
-#: Columns of text between two columns of the help.
-GUTTER = 3
+#: As wide as the gap between a key and its action, and that between two columns of the help.
+KEY_GAP, GUTTER = "nn", "nnn"
 
 
 class HelpPages:
@@ -56,11 +57,21 @@ def help_columns() -> list[list[Row]]:
 
 def help_lines(columns: int, rows: int, page: int = 0) -> tuple[list[str], int]:
     """Return one page of the help as lines of text, and how many pages there are."""
-    pages = _pages(columns, rows)
+    pages = _pages(_Characters(), columns, rows)
     shown = pages[min(page, len(pages) - 1)]
-    indent = _indent(shown)
+    indent = _indent(shown, _Characters())
     lines = [f"{key:{indent}}{text}" if text else key for key, text in shown]
     return [*lines, _more(page, len(pages))], len(pages)
+
+
+class _Characters:
+    """The measures of a terminal: characters."""
+
+    def width(self, text: str) -> int:
+        return len(text)
+
+    def wrapped(self, text: str, width: int) -> list[str]:
+        return textwrap.wrap(text, width)
 
 
 def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DARK) -> int:
@@ -81,17 +92,16 @@ def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DA
     int
         How many pages there are.
     """
-    scale = scale or text_scale(canvas)
-    cell_width, cell_height = _cell(scale)
+    font = text_font(scale or text_scale(canvas))
     inset = 5 * PADDING
-    room = (canvas.width - inset) // cell_width, (canvas.height - inset) // cell_height
+    room, rows = canvas.width - inset, (canvas.height - inset) // font.line_height
     columns = help_columns()
-    if sum(_widths(columns)) + GUTTER <= room[0] and max(map(len, columns)) <= room[1]:
-        _draw_columns(canvas, columns, scale, theme)
+    if _whole_width(columns, font) <= room and max(map(len, columns)) <= rows:
+        _draw_columns(canvas, columns, font, theme)
         return 1
-    pages = _pages(*room)
+    pages = _pages(font, room, rows)
     page = min(page, len(pages) - 1)
-    _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], scale, theme)
+    _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], font, theme)
     return len(pages)
 
 
@@ -99,19 +109,14 @@ def _more(page: int, count: int) -> str:
     return f"{page + 1} of {count}; H: " + ("more" if page + 1 < count else "close")
 
 
-def _cell(scale: int) -> tuple[int, int]:
-    width, height = text_size("M", scale)
-    return width, height + LINE_GAP * scale
-
-
-def _pages(columns: int, rows: int) -> list[list[Row]]:
-    """Return the help as pages of at most ``rows`` - 1 rows and ``columns`` characters."""
+def _pages(ruler: Font | _Characters, room: int, rows: int) -> list[list[Row]]:
+    """Return the help as pages of at most ``rows`` - 1 rows, as wide as the room."""
     rows, pages = max(rows - 1, 2), []
     for title, *entries in help_sections():
-        indent = _indent(entries)
+        indent = _indent(entries, ruler)
         page = [title]
         for key, text in entries:
-            lines = textwrap.wrap(text, max(columns - indent, 1))
+            lines = ruler.wrapped(text, max(room - indent, 1))
             if len(page) + len(lines) > rows and len(page) > 1:
                 pages.append(page)
                 page = [title]
@@ -123,30 +128,36 @@ def _pages(columns: int, rows: int) -> list[list[Row]]:
     return pages
 
 
-def _indent(rows: list[Row]) -> int:
-    return max((len(key) for key, text in rows if text), default=-2) + 2
+def _indent(rows: list[Row], ruler: Font | _Characters) -> int:
+    keys = [ruler.width(key) for key, text in rows if text]
+    return max(keys) + ruler.width(KEY_GAP) if keys else 0
 
 
-def _widths(columns: list[list[Row]]) -> list[int]:
-    """Return the width of each column in characters."""
+def _widths(columns: list[list[Row]], font: Font) -> list[int]:
+    """Return the width of each column in pixels."""
     return [
-        max(_indent(column) + len(text) if text else len(key) for key, text in column)
+        max(
+            _indent(column, font) + font.width(text) if text else font.width(key)
+            for key, text in column
+        )
         for column in columns
     ]
 
 
-def _draw_columns(canvas, columns: list[list[Row]], scale: int, theme: Theme) -> None:
-    cell_width, cell_height = _cell(scale)
-    widths = _widths(columns)
-    width = (sum(widths) + GUTTER * (len(columns) - 1)) * cell_width + 4 * PADDING
-    height = cell_height * max(map(len, columns)) - LINE_GAP * scale + 4 * PADDING
+def _whole_width(columns: list[list[Row]], font: Font) -> int:
+    return sum(_widths(columns, font)) + font.width(GUTTER) * (len(columns) - 1)
+
+
+def _draw_columns(canvas, columns: list[list[Row]], font: Font, theme: Theme) -> None:
+    width = _whole_width(columns, font) + 4 * PADDING
+    height = font.line_height * max(map(len, columns)) + 4 * PADDING
     left, top = place(canvas, width, height, "middle")
     canvas.rectangle(left, top, width, height, theme.block)
     x = left + 2 * PADDING
-    for column, column_width in zip(columns, widths, strict=True):
-        indent = _indent(column) * cell_width
+    for column, column_width in zip(columns, _widths(columns, font), strict=True):
+        indent = _indent(column, font)
         for row, (key, text) in enumerate(column):
-            y = top + 2 * PADDING + row * cell_height
-            canvas.text(x, y, key, theme.key if text else theme.title, scale=scale)
-            canvas.text(x + indent, y, text, theme.text, scale=scale)
-        x += (column_width + GUTTER) * cell_width
+            y = top + 2 * PADDING + row * font.line_height
+            canvas.text(x, y, key, theme.key if text else theme.title, font=font)
+            canvas.text(x + indent, y, text, theme.text, font=font)
+        x += column_width + font.width(GUTTER)

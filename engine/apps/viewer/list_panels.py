@@ -7,15 +7,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...rendering.canvas import text_size
-from ...stage.overlays.overlay import LINE_GAP, MARGIN, PADDING, place
+from ...rendering.fonts.font import Font
+from ...stage.overlays.lettering import text_font
+from ...stage.overlays.overlay import MARGIN, PADDING, place
 from ...stage.overlays.theme import Theme
 
 if TYPE_CHECKING:
     from .state import ViewerState
 
-#: Maximum width of a list in characters.
+#: Maximum width of a list, in halves of the font's size: about characters.
 MOST_COLUMNS = 44
+#: As wide as the least gap between the two texts of a row.
+GAP = "nn"
 #: Alpha of the bar behind the chosen row.
 BAR_ALPHA = 90
 HIDDEN, SHOWN = "[ ]", "[x]"
@@ -67,27 +70,34 @@ class Panel:
 
     def draw(self, canvas, scale: int, theme: Theme) -> None:
         """Draw the rows that fit, from the first visible one."""
-        cell_width, cell_height = text_size("M", scale)
-        self._row_height = cell_height + LINE_GAP * scale
+        font = text_font(scale)
+        self._row_height = font.line_height
         seen, heads, blank = self._fitting_rows(canvas)
-        room = max(1, (canvas.width - 2 * MARGIN - 2 * PADDING) // cell_width)
-        lines = [*heads, *(f"{row.text}  {row.detail}" for row in seen), self.hint]
-        columns = min(self.most_columns, max(self.least_columns, *map(len, lines)), room)
-        width = columns * cell_width + 2 * PADDING
-        height = (len(lines) + blank) * self._row_height + 2 * PADDING
+        wide = self._width([*heads, self.hint], seen, font)
+        wide = max(min(wide, canvas.width - 2 * MARGIN - 2 * PADDING), 1)
+        width = wide + 2 * PADDING
+        height = (len(heads) + len(seen) + blank + 1) * self._row_height + 2 * PADDING
         left, top = place(canvas, width, height, self.corner)
         self._box = left, top, width, height
         canvas.rectangle(left, top, width, height, theme.block)
         if self.chosen is not None and 0 <= self.chosen - self._first < len(seen):
             y = top + PADDING + (len(heads) + self.chosen - self._first) * self._row_height
             bar = (*theme.title[:3], BAR_ALPHA)
-            canvas.rectangle(left, y - LINE_GAP * scale // 2, width, self._row_height, bar)
-        rows = [_fitted(row, columns) for row in seen] + [""] * blank
-        colors = [theme.title] * len(heads) + [theme.text] * len(rows) + [theme.key]
-        texts = [*heads, *rows, self.hint]
-        for number, (text, color) in enumerate(zip(texts, colors, strict=True)):
-            y = top + PADDING + number * self._row_height
-            canvas.text(left + PADDING, y, text[:columns], color, scale=scale)
+            canvas.rectangle(left, y, width, self._row_height, bar)
+        rows = [Row(head) for head in heads] + seen + [Row("")] * blank + [Row(self.hint)]
+        colors = [theme.title] * len(heads) + [theme.text] * (len(seen) + blank) + [theme.key]
+        for number, (row, color) in enumerate(zip(rows, colors, strict=True)):
+            x, y = left + PADDING, top + PADDING + number * self._row_height
+            text, detail = fitted(row, wide, font)
+            canvas.text(x, y, text, color, font=font)
+            canvas.text(x + wide - font.width(detail), y, detail, color, font=font)
+
+    def _width(self, lines: list[str], rows: list[Row], font: Font) -> int:
+        """Return the width of the list's texts in pixels, if there is room."""
+        gap, unit = font.width(GAP), round(font.size / 2)
+        widths = [font.width(row.text) + gap + font.width(row.detail) for row in rows]
+        wide = max([self.least_columns * unit, *map(font.width, lines), *widths])
+        return min(self.most_columns * unit, wide)
 
     def lines(self) -> list[str]:
         """Return the list as lines of text."""
@@ -170,10 +180,13 @@ def _row(entry) -> Row:
     return Row(f"{SHOWN if entry.shown else HIDDEN} {entry.name}", f"{entry.triangles:,}")
 
 
-def _fitted(row: Row, columns: int) -> str:
-    """Return a row fitted to the panel: the text cut at its end, the detail at its front."""
-    most = max(columns - len(row.text) - 2, columns // 3)
-    detail = row.detail if len(row.detail) <= most else ".." + row.detail[2 - most :]
-    most = columns - len(detail) - 2
-    text = row.text if len(row.text) <= most else row.text[: max(0, most - 2)] + ".."
-    return f"{text}{detail:>{max(0, columns - len(text))}}"
+def fitted(row: Row, width: int, font: Font) -> Row:
+    """Return a row that fits: the text cut at its end, the detail at its front."""
+    if not row.detail:
+        return Row(font.fitted(row.text, width))
+    gap = font.width(GAP)
+    detail = row.detail
+    most = max(width - font.width(row.text) - gap, width // 3)
+    while font.width(detail) > most and detail.strip("…"):
+        detail = "…" + detail.lstrip("…")[1:]
+    return Row(font.fitted(row.text, max(width - font.width(detail) - gap, 0)), detail)

@@ -184,7 +184,7 @@ class Viewer(ViewerState):
         if self.help.shown:
             self.help.count = draw_help(canvas, self.help.page, **look)
         elif self.statistics:
-            draw_block(canvas, self._statistics(), **look)
+            draw_block(canvas, self._statistics(), is_table=self.statistics != "short", **look)
         if self.panel is not None:
             self.panel.draw(canvas, **look)
         viewed = self.view_renderer.viewed

@@ -13,9 +13,10 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from ...model.geometry.mesh import Mesh
-from ...rendering.canvas import Canvas, text_size
+from ...rendering.canvas import Canvas
 from ...rendering.frame import Frame
 from ..views.free_region import NOTHING, Taken
+from .lettering import text_font
 from .theme import Theme
 from .ticks import label as number_text
 from .ticks import ticks
@@ -137,23 +138,23 @@ class AxesGrid(NamedTuple):
         """Return the labels of an axis: its name, and the numbers that fit."""
         numbers = self.numbers(axis)
         step = numbers[1] - numbers[0] if len(numbers) > 1 else 1.0
-        unit = self.unit.replace("µ", "u")  # the font lacks µ
         texts = [(value - self.origin[axis], number_text(value, step)) for value in numbers]
-        name = "XYZ"[axis] + (f" [{unit}]" if unit else "")
-        cell = np.array(text_size("M", scale), np.float64)
+        name = "XYZ"[axis] + (f" [{self.unit}]" if self.unit else "")
+        font = text_font(scale)
+        letter, line = font.size / 2, font.line_height
         pixels, _ = frame.project(edge)
         direction = pixels[1] - pixels[0]
         outward = np.array([direction[1], -direction[0]])
         length = float(np.sqrt((outward * outward).sum()))
-        if length < 2 * cell[0]:
+        if length < 2 * letter:
             return []  # seen end on
         outward *= np.sign((outward * (pixels.mean(axis=0) - middle)).sum() or 1.0) / length
-        widest = cell[0] * max(len(text) for _, text in texts)
-        gap = _GAP * cell[0]
+        widest = max(font.width(text) for _, text in texts)
+        gap = _GAP * letter
         aside = np.abs(outward)
-        room = float((aside * (widest, cell[1])).sum())
+        room = float((aside * (widest, line)).sum())
         labels = [_Label(name, pixels.mean(axis=0), outward, 2 * gap + room)]
-        for place, text in texts[:: self._stride(texts, length, aside, widest, cell[1])]:
+        for place, text in texts[:: self._stride(texts, length, aside, widest, line)]:
             point = edge[0].copy()
             point[axis] = place
             labels.append(_Label(text, frame.project(point)[0], outward, gap))
@@ -181,7 +182,8 @@ class AxesGrid(NamedTuple):
         theme: Theme,
     ) -> None:
         """Write a text outward from a point, unless it would overlap or touch another."""
-        size = np.array(text_size(label.text, scale), np.float64)
+        font = text_font(scale)
+        size = np.array(font.text_size(label.text), np.float64)
         reach = label.gap + abs(label.outward[0]) * size[0] / 2
         corner = np.asarray(label.at) + label.outward * reach - size / 2
         if not np.isfinite(corner).all():
@@ -191,9 +193,9 @@ class AxesGrid(NamedTuple):
         box = (*corner.tolist(), *(corner + size).tolist())
         if any(_overlap(box, other) for other in taken):
             return
-        letter = text_size("M", scale)[0]
+        letter = font.size / 2
         taken.append((box[0] - letter, box[1], box[2] + letter, box[3]))
-        canvas.text(round(box[0]), round(box[1]), label.text, theme.text, scale=scale)
+        canvas.text(round(box[0]), round(box[1]), label.text, theme.text, font=font)
 
 
 class _Label(NamedTuple):

@@ -50,4 +50,5 @@ def draw_labels(
     if settings.axes:
         draw_axes(canvas, view, scale)
     if settings.metadata:
-        draw_block(canvas, viewed.metadata(), corner="top right", scale=scale, theme=theme)
+        lines, corner = viewed.metadata(), "top right"
+        draw_block(canvas, lines, corner=corner, scale=scale, theme=theme, is_table=True)

@@ -6,23 +6,23 @@ blocks in the corners; lines wider than the picture are wrapped.
 
 from __future__ import annotations
 
-import textwrap
 from itertools import zip_longest
 from typing import Any
 
-from ...rendering.canvas import Canvas, text_size
+from ...rendering.canvas import Canvas
+from ...rendering.fonts.font import Font
 from ..views.camera_view import AnyView
 from .draw_counts import count_names, count_table, told_tests
 from .frame_times import FrameTimes
+from .lettering import table_font, text_font
 from .theme import DARK, Theme
 
 PADDING = 8
 MARGIN = 10
-LINE_GAP = 3
 #: Pictures of at least this height get text of twice the size.
 LARGE_HEIGHT = 1400
-#: Larger text is used only if this many characters fit into a line.
-FEWEST_COLUMNS = 40
+#: Larger text is used only if the picture has so many of its pixels in a row.
+LEAST_WIDTH = 320
 #: X, Y and Z in the usual red, green and blue, light enough for a dark background.
 AXIS_COLORS = ((235, 80, 80, 255), (95, 205, 95, 255), (95, 140, 255, 255))
 AXIS_LENGTH = 34
@@ -36,7 +36,7 @@ def text_scale(canvas: Canvas, screen: int = 1) -> int:
 def text_scale_for(width: int, height: int, screen: int = 1) -> int:
     """Return the font scale for a picture of some size."""
     scale = max(screen, 2 if height >= LARGE_HEIGHT else 1)
-    return max(1, min(scale, width // (FEWEST_COLUMNS * text_size("M")[0])))
+    return max(1, min(scale, width // LEAST_WIDTH))
 
 
 def draw_block(
@@ -46,6 +46,7 @@ def draw_block(
     corner: str = "top left",
     scale: int | None = None,
     theme: Theme = DARK,
+    is_table: bool = False,
 ) -> None:
     """Draw lines of text on a translucent block.
 
@@ -60,31 +61,28 @@ def draw_block(
     scale : int, optional
         Factor on the font's size; by default chosen for the picture.
     theme : Theme
+    is_table : bool
+        Whether the lines have columns, each character as wide.
     """
     scale = scale or text_scale(canvas)
-    lines = _fitting(canvas, lines, scale)
+    font = (table_font if is_table else text_font)(scale)
+    lines = _fitting(canvas, lines, font)
     if not lines:
         return
-    sizes = [text_size(line, scale) for line in lines]
-    line_height = text_size("M", scale)[1] + LINE_GAP * scale
-    width = max(size[0] for size in sizes) + 2 * PADDING
-    height = line_height * len(lines) - LINE_GAP * scale + 2 * PADDING
+    width = max(map(font.width, lines)) + 2 * PADDING
+    height = font.line_height * len(lines) + 2 * PADDING
     x, y = place(canvas, width, height, corner)
     canvas.rectangle(x, y, width, height, theme.block)
     for row, line in enumerate(lines):
-        canvas.text(x + PADDING, y + PADDING + row * line_height, line, theme.text, scale=scale)
+        canvas.text(x + PADDING, y + PADDING + row * font.line_height, line, theme.text, font=font)
 
 
-def _fitting(canvas: Canvas, lines: list[str], scale: int) -> list[str]:
+def _fitting(canvas: Canvas, lines: list[str], font: Font) -> list[str]:
     """Return the lines, wrapped to the picture's width and cut to its height."""
-    cell_width, cell_height = text_size("M", scale)
-    room = canvas.width - 2 * PADDING - MARGIN, canvas.height - 2 * PADDING - MARGIN
-    columns = max(room[0] // cell_width, 1)
-    rows = max(room[1] // (cell_height + LINE_GAP * scale), 1)
-    wrapped = []
-    for line in lines:
-        wrapped += [line] if len(line) <= columns else textwrap.wrap(line, columns)
-    return wrapped if len(wrapped) <= rows else [*wrapped[: rows - 1], "..."[:columns]]
+    width = max(canvas.width - 2 * PADDING - MARGIN, 1)
+    rows = max((canvas.height - 2 * PADDING - MARGIN) // font.line_height, 1)
+    wrapped = [part for line in lines for part in font.wrapped(line, width)]
+    return wrapped if len(wrapped) <= rows else [*wrapped[: rows - 1], "…"]
 
 
 def place(canvas: Canvas, width: int, height: int, corner: str) -> tuple[int, int]:
@@ -168,7 +166,7 @@ def _in_two_columns(entries: list[str]) -> list[str]:
 def draw_axes(canvas: Canvas, view: AnyView, scale: int | None = None) -> None:
     """Draw the world's axes, as seen by the camera, in the bottom left corner."""
     scale = scale or text_scale(canvas)
-    length = AXIS_LENGTH * scale
+    font, length = text_font(scale), AXIS_LENGTH * scale
     reach = length + 14 * scale
     x0, y0 = reach, canvas.pixels.shape[0] - reach
     # Row k of the rotation is the world's axis k in camera space: right, up, back.
@@ -176,6 +174,6 @@ def draw_axes(canvas: Canvas, view: AnyView, scale: int | None = None) -> None:
     for (right, up, _), letter, color in sorted(axes, key=lambda axis: axis[0][2]):
         x, y = round(x0 + right * length), round(y0 - up * length)
         canvas.line(x0, y0, x, y, color, width=2 * scale)
-        half_width, half_height = (side / 2 for side in text_size(letter, scale))
+        half_width, half_height = (side / 2 for side in font.text_size(letter))
         x, y = x0 + right * (length + 8 * scale), y0 - up * (length + 8 * scale)
-        canvas.text(round(x - half_width), round(y - half_height), letter, color, scale=scale)
+        canvas.text(round(x - half_width), round(y - half_height), letter, color, font=font)

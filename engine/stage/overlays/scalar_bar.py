@@ -7,20 +7,20 @@ most a quarter of the width, else flat at the bottom, in small pictures without 
 
 from __future__ import annotations
 
-import textwrap
 from typing import NamedTuple
 
 import numpy as np
 
-from ...rendering.canvas import Canvas, text_size
+from ...rendering.canvas import Canvas
 from ..coloring import ScalarBar
 from ..views.free_region import Taken
+from .lettering import text_font
 from .overlay import MARGIN, PADDING
 from .theme import DARK, Theme
 from .ticks import label, ticks
 
 _SHARE, _MOST_TICKS = 0.6, 6
-_FINEST, _TICK = 6, 4  # pixels per font pixel: thickness of the bar, length of a tick
+_FINEST, _TICK = 6, 4  # pixels at scale 1: thickness of the bar, length of a tick
 _UNITS = 40  # thickness, margin and padding are this fraction of the picture's smaller side
 _MOST, _MOST_FLAT = 0.25, 1 / 3  # of the picture
 
@@ -81,22 +81,22 @@ def _numbers(bar: ScalarBar, most: int) -> tuple[list[float], list[str]]:
     return numbers, [label(number, step) for number in numbers]
 
 
-def _longest(texts: list[str]) -> int:
-    return max(map(len, texts), default=0)
+def _widest(texts: list[str], scale: int) -> int:
+    return max(map(text_font(scale).width, texts), default=0)
 
 
 def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
-    cell_width, cell_height = text_size("M", scale)
+    line = text_font(scale).line_height
     thick, padding, margin = _edges(width, height, scale)
     length = max(int(height * _SHARE), 2)
-    numbers, labels = _numbers(bar, length // (2 * cell_height))
+    numbers, labels = _numbers(bar, length // (2 * line))
     if len(numbers) < 2:  # a single one says little: with less spacing, more fit
-        numbers, labels = _numbers(bar, length // cell_height)
-    columns = max(int(_MOST * width - margin - 2 * padding) // cell_width, 1)
-    title = textwrap.wrap(bar.title, columns, break_long_words=False, break_on_hyphens=False)
-    wide = thick + _TICK * scale + cell_width // 2 + cell_width * _longest(labels)
-    wide = max(wide, cell_width * _longest(title)) + 2 * padding
-    high = length + 2 * padding + cell_height * (len(title) + 1)
+        numbers, labels = _numbers(bar, length // line)
+    room = max(int(_MOST * width - margin - 2 * padding), _widest(bar.title.split(), scale))
+    title = text_font(scale).wrapped(bar.title, room) if bar.title else []
+    wide = thick + 2 * _TICK * scale + _widest(labels, scale)
+    wide = max(wide, _widest(title, scale)) + 2 * padding
+    high = length + 2 * padding + line * (len(title) + 1)
     left, top = width - wide - margin, (height - high) // 2
     return BarPlace(
         left, top, wide, high, True, title, length, thick, padding, margin, numbers, labels
@@ -104,7 +104,7 @@ def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
 
 
 def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
-    cell_width, cell_height = text_size("M", scale)
+    font = text_font(scale)
     thick, padding, margin = _edges(width, height, scale)
     length = max(width - 2 * (margin + padding), 2)
     high = thick + 2 * padding
@@ -113,16 +113,16 @@ def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
     labels: list[str] = []
     for most in range(_MOST_TICKS, 0, -1):
         numbers, labels = _numbers(bar, most)
-        if (_longest(labels) + 1) * cell_width * len(labels) <= length:
+        if (_widest(labels, scale) + font.width("0")) * len(labels) <= length:
             break
-    below = _TICK * scale + cell_height
-    if high + below + margin > _MOST_FLAT * height or length < cell_width * _longest(labels):
+    below = _TICK * scale + font.line_height
+    if high + below + margin > _MOST_FLAT * height or length < _widest(labels, scale):
         numbers, labels = [], []
     else:
         high += below
-        is_short = cell_width * len(bar.title) <= length
-        if bar.title and is_short and high + cell_height + margin <= _MOST * height:
-            title, high = [bar.title], high + cell_height
+        is_short = font.width(bar.title) <= length
+        if bar.title and is_short and high + font.line_height + margin <= _MOST * height:
+            title, high = [bar.title], high + font.line_height
     wide = length + 2 * padding
     left, top = (width - wide) // 2, height - high - margin
     return BarPlace(
@@ -133,14 +133,14 @@ def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
 def draw_scalar_bar(canvas: Canvas, bar: ScalarBar, scale: int = 1, theme: Theme = DARK) -> None:
     """Draw the bar on a block, with its title above it."""
     place = place_bar(canvas.width, canvas.height, bar, scale)
-    cell_height = text_size("M", scale)[1]
+    font = text_font(scale)
     canvas.rectangle(place.left, place.top, place.width, place.height, theme.block)
     left, top = place.left + place.padding, place.top + place.padding
     for line in place.title:
-        canvas.text(left, top, line, theme.text, scale=scale)
-        top += cell_height
+        canvas.text(left, top, line, theme.text, font=font)
+        top += font.line_height
     if place.upright:
-        _draw_upright(canvas, bar, place, (left, top + cell_height // 2), scale, theme)
+        _draw_upright(canvas, bar, place, (left, top + font.line_height // 2), scale, theme)
     else:
         _draw_flat(canvas, bar, place, (left, top), scale, theme)
 
@@ -163,15 +163,14 @@ def _draw_upright(
     theme: Theme,
 ) -> None:
     (left, top), last = corner, place.length - 1
-    cell_width, cell_height = text_size("M", scale)
+    font = text_font(scale)
     for row, color in enumerate(_colors(bar, place.length)):
         canvas.rectangle(left, top + last - row, place.thick, 1, (*color, 255))
     right, tick = left + place.thick, _TICK * scale
     for number, text in zip(place.numbers, place.labels, strict=True):
         y = top + last - _at(number, bar, place.length)
         canvas.rectangle(right, y, tick, 1, theme.text)
-        x = right + tick + cell_width // 2
-        canvas.text(x, y - cell_height // 2, text, theme.text, scale=scale)
+        canvas.text(right + 2 * tick, y - font.line_height // 2, text, theme.text, font=font)
 
 
 def _draw_flat(
@@ -182,12 +181,12 @@ def _draw_flat(
     scale: int,
     theme: Theme,
 ) -> None:
-    left, top = corner
+    (left, top), font = corner, text_font(scale)
     for column, color in enumerate(_colors(bar, place.length)):
         canvas.rectangle(left + column, top, 1, place.thick, (*color, 255))
     bottom, tick = top + place.thick, _TICK * scale
     for number, text in zip(place.numbers, place.labels, strict=True):
-        x, wide = left + _at(number, bar, place.length), text_size(text, scale)[0]
+        x, wide = left + _at(number, bar, place.length), font.width(text)
         canvas.rectangle(x, bottom, 1, tick, theme.text)
         x = min(max(x - wide // 2, left), left + place.length - wide)
-        canvas.text(x, bottom + tick, text, theme.text, scale=scale)
+        canvas.text(x, bottom + tick, text, theme.text, font=font)

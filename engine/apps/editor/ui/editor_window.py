@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import imgui, imguizmo
 
 from ....rendering.canvas import Canvas
+from ....stage.overlays.lettering import heading_font
 from ... import events
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ...viewer.window import Window
@@ -158,7 +159,7 @@ class EditorWindow:
             self._has_told = True
             canvas = Canvas(self.window.size)
             canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
-            canvas.text(16, 16, RUNNING, (255, 255, 255), scale=2, background=(150, 40, 40))
+            canvas.text(16, 16, RUNNING, "white", font=heading_font(1), background=(150, 40, 40))
             self.window.present(canvas)
         closes = any(isinstance(event, events.CloseRequested) for event in happened)
         return closes or any(map(_is_stop_key, happened))

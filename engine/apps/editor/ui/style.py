@@ -25,5 +25,5 @@ def choose_style(scale: int) -> None:
     # Glyphs whose texels are pixels are copied.
     config.oversample_h = config.oversample_v = 1
     config.pixel_snap_h = True
-    font = files("imgui_bundle") / "assets" / "fonts" / "DroidSans.ttf"
+    font = files("engine3d.data") / "fonts" / "sans.ttf"
     imgui.get_io().fonts.add_font_from_file_ttf(str(font), FONT_PIXELS, config)

@@ -87,6 +87,15 @@ PROBE = "#include <Python.h>\n#include <math.h>\n"
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
 DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md"]
+# What desktops and `man` look for below the prefix -> the file of data/desktop that goes there.
+DESKTOP_FILES = {
+    "share/applications": "engine3d.desktop",
+    "share/icons/hicolor/scalable/apps": "engine3d.svg",
+    "share/man/man1": "engine3d.1",
+    "share/metainfo": "engine3d.metainfo.xml",
+    "share/mime/packages": "engine3d.xml",
+    "share/thumbnailers": "engine3d.thumbnailer",
+}
 # Models that nothing in the package draws: in the source, but not in the wheel.
 SOURCE_ONLY = ["models/globe.obj", "models/globe.mtl", "models/globe_stand.*", "models/nautilus*"]
 
@@ -428,6 +437,11 @@ if __name__ == "__main__":
             # Text only: their pictures are in docs/course, and are drawn anew by whoever runs them.
             "engine3d.lessons": ["*.c", "*.obj", "*.asc"],
         },
+        data_files=[
+            (folder, [f"data/desktop/{name}"])
+            for folder, name in DESKTOP_FILES.items()
+            if not IS_WINDOWS
+        ],
         include_package_data=False,
         exclude_package_data={
             "engine3d._native": ["kernels_testing.pyi"],

@@ -107,6 +107,15 @@ def test_wheel_holds_every_module_stub_and_data_file(wheel, source_tree):
     assert compiled == {"_core"}
 
 
+def test_wheel_holds_what_desktops_and_man_look_for(wheel, source_tree):
+    with zipfile.ZipFile(wheel) as archive:
+        names = [PurePosixPath(name) for name in archive.namelist()]
+    shared = {path.name for path in names if path.parts[0].endswith(".data")}
+    assert all(path.parts[1:3] == ("data", "share") for path in names if path.name in shared)
+    desktop = (source_tree / "data" / "desktop").iterdir()
+    assert shared == {path.name for path in desktop if path.suffix not in (".py", "")}
+
+
 def test_wheel_holds_nothing_else(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()

@@ -14,6 +14,7 @@ package needs depends on the system, and is here.
 
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -47,8 +48,10 @@ from stubs import write_stub
 # Before 11.2.1, Pillow wrote opaque GIFs wrong from the second frame on. Not those that mend holes,
 # since others hold back the newest: `engine3d info --system` names the holes.
 REQUIREMENTS = ["numpy>=1.23", "pillow>=11.2.1", "pysdl2>=0.9.16", "rich>=13"]
-# The window's SDL. There is none for musl: the window wants the system's there, all else nothing.
+# The window's SDL. There is none for musl and for Windows on AArch64: the window wants the system's
+# there, all else nothing.
 SDL = "pysdl2-dll>=2.28"
+WITHOUT_SDL = re.compile(r"musl|win-arm64")
 NATIVE = "engine3d._native"
 CORE_MODULE = f"{NATIVE}._core"
 # What Cython would otherwise write into every module, such as the code of memoryviews.
@@ -66,7 +69,8 @@ TESTING_MODULE = f"{NATIVE}.kernels_testing"
 def requirements():
     """The packages that engine3d needs at run time, where it is built for."""
     names = [sysconfig.get_config_var(name) or "" for name in ("SOABI", "HOST_GNU_TYPE")]
-    return REQUIREMENTS if "musl" in "".join(names) else [*REQUIREMENTS, SDL]
+    has_sdl = not WITHOUT_SDL.search(" ".join([sysconfig.get_platform(), *names]))
+    return [*REQUIREMENTS, SDL] if has_sdl else REQUIREMENTS
 
 
 # Untested: setuptools' own choice on Windows does not know the flags of gcc and clang.

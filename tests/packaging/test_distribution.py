@@ -12,7 +12,15 @@ pytestmark = pytest.mark.slow
 
 MAX_WHEEL_BYTES = 5_800_000
 SOURCE_FOLDERS = ["benchmarks", "csrc", "data", "docs", "engine", "lessons", "tests"]
-SOURCE_FILES = ["CHANGELOG.md", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml", "setup.py"]
+SOURCE_FILES = [
+    "CHANGELOG.md",
+    "CITATION.cff",
+    "LICENSE",
+    "MANIFEST.in",
+    "README.md",
+    "pyproject.toml",
+    "setup.py",
+]
 SOURCE_FILES += ["csrc/build_rules.py"]
 SOURCE_ONLY = ("globe.obj", "globe.mtl", "globe_stand.", "nautilus")  # models
 BUILD_PRODUCTS = {".so", ".o", ".a", ".pyc"}

@@ -14,6 +14,7 @@ package needs depends on the system, and is here.
 
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -47,8 +48,10 @@ from stubs import write_stub
 # Before 11.2.1, Pillow wrote opaque GIFs wrong from the second frame on. Not those that mend holes,
 # since others hold back the newest: `engine3d info --system` names the holes.
 REQUIREMENTS = ["numpy>=1.23", "pillow>=11.2.1", "pysdl2>=0.9.16", "rich>=13"]
-# The window's SDL. There is none for musl: the window wants the system's there, all else nothing.
+# The window's SDL. There is none for musl and for Windows on AArch64: the window wants the system's
+# there, all else nothing.
 SDL = "pysdl2-dll>=2.28"
+WITHOUT_SDL = re.compile(r"musl|win-arm64")
 NATIVE = "engine3d._native"
 CORE_MODULE = f"{NATIVE}._core"
 # What Cython would otherwise write into every module, such as the code of memoryviews.
@@ -66,7 +69,8 @@ TESTING_MODULE = f"{NATIVE}.kernels_testing"
 def requirements():
     """The packages that engine3d needs at run time, where it is built for."""
     names = [sysconfig.get_config_var(name) or "" for name in ("SOABI", "HOST_GNU_TYPE")]
-    return REQUIREMENTS if "musl" in "".join(names) else [*REQUIREMENTS, SDL]
+    has_sdl = not WITHOUT_SDL.search(" ".join([sysconfig.get_platform(), *names]))
+    return [*REQUIREMENTS, SDL] if has_sdl else REQUIREMENTS
 
 
 # Untested: setuptools' own choice on Windows does not know the flags of gcc and clang.
@@ -87,6 +91,15 @@ PROBE = "#include <Python.h>\n#include <math.h>\n"
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
 DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md", "ttf", "txt"]
+# What desktops and `man` look for below the prefix -> the file of data/desktop that goes there.
+DESKTOP_FILES = {
+    "share/applications": "engine3d.desktop",
+    "share/icons/hicolor/scalable/apps": "engine3d.svg",
+    "share/man/man1": "engine3d.1",
+    "share/metainfo": "engine3d.metainfo.xml",
+    "share/mime/packages": "engine3d.xml",
+    "share/thumbnailers": "engine3d.thumbnailer",
+}
 # Models that nothing in the package draws: in the source, but not in the wheel.
 SOURCE_ONLY = ["models/globe.obj", "models/globe.mtl", "models/globe_stand.*", "models/nautilus*"]
 
@@ -428,6 +441,11 @@ if __name__ == "__main__":
             # Text only: their pictures are in docs/course, and are drawn anew by whoever runs them.
             "engine3d.lessons": ["*.c", "*.obj", "*.asc"],
         },
+        data_files=[
+            (folder, [f"data/desktop/{name}"])
+            for folder, name in DESKTOP_FILES.items()
+            if not IS_WINDOWS
+        ],
         include_package_data=False,
         exclude_package_data={
             "engine3d._native": ["kernels_testing.pyi"],

@@ -14,5 +14,9 @@ static inline int64_t e3d_read_clock(clockid_t clock)
 /* Nanoseconds since some fixed moment. */
 static inline int64_t e3d_now_ns(void) { return e3d_read_clock(CLOCK_MONOTONIC); }
 
-/* Nanoseconds of CPU time that the calling thread has had. */
+/* Nanoseconds of CPU time that the calling thread has had. WebAssembly has no such clock, and one thread. */
+#if defined(__wasi__)
+static inline int64_t e3d_thread_ns(void) { return e3d_now_ns(); }
+#else
 static inline int64_t e3d_thread_ns(void) { return e3d_read_clock(CLOCK_THREAD_CPUTIME_ID); }
+#endif

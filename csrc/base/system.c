@@ -1,4 +1,4 @@
-/* Functions that Linux, macOS and Windows provide in different ways: system.h. */
+/* Functions that Linux, macOS, Windows and WASI provide in different ways: system.h. */
 #define _GNU_SOURCE
 #include "base/system.h"
 
@@ -10,8 +10,11 @@
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 #else
-#include <signal.h>
 #include <unistd.h>
+#endif
+#if !defined(_WIN32) && !defined(__wasi__)
+#define HAS_SIGNALS
+#include <signal.h>
 #endif
 #if defined(__linux__)
 #include <sched.h>
@@ -25,7 +28,7 @@ int e3d_random_bytes(void *bytes, size_t count)
 #if defined(__linux__) /* called directly, since glibc has a function for it only from 2.25 on */
     const unsigned without_waiting = 1;
     return syscall(SYS_getrandom, bytes, count, without_waiting) == (long)count;
-#elif defined(__APPLE__)
+#elif defined(__APPLE__) || defined(__wasi__)
     return getentropy(bytes, count) == 0;
 #elif defined(_WIN32)
     for (size_t at = 0; at < count; at += sizeof(unsigned)) {
@@ -60,13 +63,13 @@ int e3d_usable_processors(void)
 
 void e3d_without_signals(void (*start)(int), int argument)
 {
-#if defined(_WIN32)
-    start(argument);
-#else
+#if defined(HAS_SIGNALS)
     sigset_t all, saved;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &saved);
     start(argument);
     pthread_sigmask(SIG_SETMASK, &saved, NULL);
+#else
+    start(argument);
 #endif
 }

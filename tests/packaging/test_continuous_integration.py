@@ -55,3 +55,21 @@ def test_nothing_is_installed_between_the_halves_of_readmes_commands(source_tree
     between = [line for line in lines[:test] if line.lstrip().startswith("pip install")]
     assert install < test and not between
     assert any("-r tests/requirements.txt" in line for line in lines[test:])
+
+
+@pytest.mark.parametrize(
+    ("name", "status", "said"),
+    [
+        ("z80", 2, "no processor z80: expected one of aarch64, riscv64, wasm32"),
+        ("riscv64", 1, "processors: riscv64: no qemu-riscv64-static (pip install ziglang; Debian:"),
+    ],
+)
+def test_a_processor_that_cannot_be_tried_is_told_at_once(
+    source_tree, tmp_path, name, status, said
+):
+    # Neither a compiler nor an emulator is on this path: nothing can be built by mistake.
+    command = [sys.executable, source_tree / ".ci" / "processors", name]
+    environment = {"PATH": str(tmp_path)}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == status and said in done.stderr
+    assert "Traceback" not in done.stderr

@@ -12,7 +12,15 @@ pytestmark = pytest.mark.slow
 
 MAX_WHEEL_BYTES = 5_800_000
 SOURCE_FOLDERS = ["benchmarks", "csrc", "data", "docs", "engine", "lessons", "tests"]
-SOURCE_FILES = ["CHANGELOG.md", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml", "setup.py"]
+SOURCE_FILES = [
+    "CHANGELOG.md",
+    "CITATION.cff",
+    "LICENSE",
+    "MANIFEST.in",
+    "README.md",
+    "pyproject.toml",
+    "setup.py",
+]
 SOURCE_FILES += ["csrc/build_rules.py"]
 SOURCE_ONLY = ("globe.obj", "globe.mtl", "globe_stand.", "nautilus")  # models
 BUILD_PRODUCTS = {".so", ".o", ".a", ".pyc"}
@@ -105,6 +113,15 @@ def test_wheel_holds_every_module_stub_and_data_file(wheel, source_tree):
     assert len(left_out) == 7 and not {f"engine3d/data/models/{name}" for name in left_out} & held
     compiled = {PurePosixPath(name).name.split(".")[0] for name in held if name.endswith(".so")}
     assert compiled == {"_core"}
+
+
+def test_wheel_holds_what_desktops_and_man_look_for(wheel, source_tree):
+    with zipfile.ZipFile(wheel) as archive:
+        names = [PurePosixPath(name) for name in archive.namelist()]
+    shared = {path.name for path in names if path.parts[0].endswith(".data")}
+    assert all(path.parts[1:3] == ("data", "share") for path in names if path.name in shared)
+    desktop = (source_tree / "data" / "desktop").iterdir()
+    assert shared == {path.name for path in desktop if path.suffix not in (".py", "")}
 
 
 def test_wheel_holds_nothing_else(wheel):

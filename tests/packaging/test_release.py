@@ -1,13 +1,19 @@
-"""What wheels for other machines are built with."""
+"""What a release is built with, its papers, and what others read of it."""
 
+import io
+import json
 import os
 import runpy
 import subprocess
 import sys
 import sysconfig
+import tarfile
+import zipfile
 from types import SimpleNamespace
 
 import pytest
+
+import engine3d as e3d
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="wheels are built on Linux")
 
@@ -87,11 +93,95 @@ def test_each_machine_has_its_kernels(source_tree):
     assert isa_flags("") == {}
 
 
-@pytest.mark.parametrize("machine", ["x86_64-linux-gnu", "aarch64-linux-musl"])
-def test_only_where_there_is_sdl_it_is_required(source_tree, monkeypatch, machine):
+@pytest.mark.parametrize(
+    "machine, platform, has_sdl",
+    [
+        ("x86_64-linux-gnu", "linux-x86_64", True),
+        ("aarch64-linux-musl", "linux-aarch64", False),
+        ("windows-gnu", "win-amd64", True),
+        ("windows-gnu", "win-arm64", False),
+        ("aarch64-linux-gnu", "macosx-11.0-arm64", True),
+    ],
+)
+def test_only_where_there_is_sdl_it_is_required(
+    source_tree, monkeypatch, machine, platform, has_sdl
+):
     settings = {"SOABI": f"cpython-311-{machine}", "HOST_GNU_TYPE": machine}
     monkeypatch.setattr(sysconfig, "get_config_var", settings.get)
+    monkeypatch.setattr(sysconfig, "get_platform", lambda: platform)
     required = rules(source_tree, "setup.py")["requirements"]()
     names = [requirement.partition(">")[0] for requirement in required]
-    sdl = ["pysdl2-dll"] if machine.endswith("gnu") else []
+    sdl = ["pysdl2-dll"] if has_sdl else []
     assert names == ["numpy", "pillow", "pysdl2", "rich", *sdl]
+
+
+def packed(path, names, mtime, mode):
+    """Write an archive as some machine would."""
+    with tarfile.open(path, "w:gz") as archive:
+        for name in names:
+            entry = tarfile.TarInfo(name)
+            entry.size, entry.mtime, entry.mode = len(name), mtime, mode
+            entry.uid, entry.uname = mtime % 1000, f"user{mtime}"
+            archive.addfile(entry, io.BytesIO(name.encode()))
+    return path
+
+
+def test_a_source_distribution_has_the_same_bytes_whoever_packs_it(source_tree, tmp_path):
+    repack = rules(source_tree, ".ci/source_archive.py")["repack"]
+    names = ["engine3d-1/b", "engine3d-1/a", "engine3d-1/" + "long/" * 60 + "c"]
+    archives = [packed(tmp_path / "one.tar.gz", names, 1000, 0o600)]
+    archives += [packed(tmp_path / "two.tar.gz", names[::-1], 2003, 0o664)]
+    assert archives[0].read_bytes() != archives[1].read_bytes()
+    for path in archives:
+        repack(path, 1_700_000_000)
+    assert archives[0].read_bytes() == archives[1].read_bytes()
+    with tarfile.open(archives[0]) as archive:
+        assert archive.getnames() == sorted(names)
+        for entry in archive:
+            assert archive.extractfile(entry).read() == entry.name.encode()
+            assert (entry.mtime, entry.mode, entry.uname) == (1_700_000_000, 0o644, "")
+
+
+def test_a_bill_of_materials_names_the_files_and_what_they_need(source_tree, tmp_path, monkeypatch):
+    written = rules(source_tree, ".ci/bill_of_materials.py")["bill_of_materials"]
+    monkeypatch.setitem(written.__globals__, "version", lambda name: "1.2")
+    metadata = (
+        "Metadata-Version: 2.4\nName: engine3d\nVersion: 0.1\nSummary: Draws\n"
+        'License-Expression: MIT\nRequires-Dist: NumPy_x>=1.23\nRequires-Dist: no; extra == "no"\n'
+    )
+    wheel = tmp_path / "engine3d.whl"
+    with zipfile.ZipFile(wheel, "w") as archive:
+        archive.writestr("engine3d-0.1.dist-info/METADATA", metadata)
+    digests = {"engine3d.whl": "ab" * 32, "engine3d.tar.gz": "cd" * 32}
+    text = written(digests, [wheel], 1_700_000_000)
+    assert text == written(dict(reversed(digests.items())), [wheel], 1_700_000_000)
+    content = json.loads(text)
+    itself = content["metadata"]["component"]
+    assert itself["purl"] == "pkg:pypi/engine3d@0.1"
+    assert {one["name"]: one["hashes"][0]["content"] for one in itself["components"]} == digests
+    (needed,) = content["components"]
+    assert (needed["purl"], needed["properties"][0]["value"]) == ("pkg:pypi/numpy-x", ">=1.23")
+    assert content["dependencies"][0]["dependsOn"] == [needed["bom-ref"]]
+    validation = pytest.importorskip("cyclonedx.validation.json", exc_type=ImportError)
+    schema = pytest.importorskip("cyclonedx.schema", exc_type=ImportError)
+    assert validation.JsonStrictValidator(schema.SchemaVersion.V1_6).validate_str(text) is None
+
+
+def test_the_recipe_for_conda_says_what_the_package_does(source_tree):
+    yaml = pytest.importorskip("yaml", exc_type=ImportError)
+    recipe = yaml.safe_load((source_tree / ".ci" / "conda" / "recipe.yaml").read_text("utf-8"))
+    assert recipe["package"]["version"] == e3d.__version__
+    needed = [need.replace(" ", "") for need in recipe["requirements"]["run"]]
+    assert [*rules(source_tree, "setup.py")["REQUIREMENTS"], "sdl2"] == needed[1:]
+    (script,) = recipe["build"]["python"]["entry_points"]
+    project = (source_tree / "pyproject.toml").read_text("utf-8")
+    assert script.replace(" = ", ' = "') + '"' in project
+
+
+def test_forms_and_workflows_can_be_read(source_tree):
+    yaml = pytest.importorskip("yaml", exc_type=ImportError)
+    paths = [*source_tree.glob(".github/**/*.yml"), source_tree / ".readthedocs.yaml"]
+    paths += [source_tree / "CITATION.cff"]
+    assert len(paths) > 8
+    for path in paths:
+        assert yaml.safe_load(path.read_text("utf-8")), path

@@ -23,7 +23,11 @@
 /* What other libraries in a process may have done: the core must neither notice nor undo it. */
 static void disturb_floating_point(int disturb)
 {
+#if defined(FE_UPWARD) /* WebAssembly rounds to nearest, always */
     fesetround(disturb ? FE_UPWARD : FE_TONEAREST);
+#else
+    (void)disturb;
+#endif
 #if defined(__x86_64__)
     const unsigned flush = 0x8040; /* flush to zero, denormals are zero */
     _mm_setcsr(disturb ? _mm_getcsr() | flush : _mm_getcsr() & ~flush);

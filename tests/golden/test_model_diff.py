@@ -1,0 +1,220 @@
+"""The GitHub Action that shows what a change does to models: its step runs on a repository."""
+
+import html
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import engine3d as e3d
+
+ACTION = Path(__file__).resolve().parents[2] / ".github" / "actions" / "models"
+SIZE = (96, 64)
+
+pytestmark = [
+    pytest.mark.skipif(shutil.which("git") is None, reason="needs git"),
+    pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash"),
+]
+
+
+class Repository:
+    """A repository in a folder, and what the action says of its last commit."""
+
+    def __init__(self, folder):
+        self.folder = folder / "repository"
+        self.folder.mkdir()
+        self.outside = folder
+        self.git("init", "--quiet")
+
+    def git(self, *words):
+        who = ["-c", "user.name=a", "-c", "user.email=a@example.org"]
+        command = ["git", *who, *words]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=True)
+        return done.stdout.strip()
+
+    def commit(self):
+        self.git("add", "--all")
+        self.git("commit", "--quiet", "--allow-empty", "--message", "a")
+        return self.git("rev-parse", "HEAD")
+
+    def write(self, name, mesh):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(mesh, (str, bytes)):
+            path.write_bytes(mesh.encode() if isinstance(mesh, str) else mesh)
+        else:
+            mesh.save(path)
+
+    def run(self, base, patterns=""):
+        environment = {
+            **os.environ,
+            "GITHUB_ACTION_PATH": str(ACTION),
+            "GITHUB_OUTPUT": str(self.outside / "outputs"),
+            "GITHUB_STEP_SUMMARY": str(self.outside / "summary"),
+            "MODELS_BASE": base,
+            "MODELS_PATTERNS": patterns,
+            "MODELS_SIZE": "{}x{}".format(*SIZE),
+            "MODELS_FOLDER": str(self.outside / "a folder"),
+            "MODELS_PYTHON": sys.executable,
+        }
+        command = ["bash", ACTION / "draw.sh"]
+        return subprocess.run(
+            command, cwd=self.folder, env=environment, capture_output=True, text=True
+        )
+
+    def told(self, base, patterns=""):
+        """Return the outputs, the models by name, and the rows of the summary."""
+        done = self.run(base, patterns)
+        assert done.returncode == 0, done.stderr
+        outputs = dict(line.split("=") for line in (self.outside / "outputs").open())
+        content = json.loads((self.outside / "a folder" / "models.json").read_text("utf-8"))
+        models = {model["name"]: model for model in content["models"]}
+        lines = (self.outside / "summary").read_text("utf-8").splitlines()
+        rows = [html.unescape(line) for line in lines if line.startswith("| ")][1:]
+        return {name: int(value) for name, value in outputs.items()}, models, rows
+
+    def picture(self, side, name):
+        with Image.open(self.outside / "a folder" / side / f"{name}.png") as picture:
+            return np.asarray(picture.convert("RGB")).astype(int)
+
+
+@pytest.fixture
+def repository(tmp_path):
+    return Repository(tmp_path)
+
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nusemtl a\nf 1 2 3\n"
+
+
+def test_each_change_of_a_model_is_told(repository):
+    repository.write("parts/grown.ply", e3d.box((1, 1, 1)))
+    repository.write("parts/gone.ply", e3d.box())
+    repository.write("parts/kept.ply", e3d.box())
+    repository.write("broken.ply", e3d.box())
+    repository.write("painted/a.obj", TRIANGLE)
+    repository.write("painted/a.mtl", "newmtl a\nKd 1 0 0\n")
+    base = repository.commit()
+    repository.write("parts/grown.ply", e3d.box((1, 1, 3)))
+    (repository.folder / "parts" / "gone.ply").unlink()
+    repository.write("new.ply", e3d.torus())
+    repository.write("broken.ply", b"ply\nnonsense\n")
+    repository.write("painted/a.mtl", "newmtl a\nKd 0 0 1\n")
+    repository.commit()
+    outputs, models, rows = repository.told(base)
+    assert outputs == {"changed": 5, "broken": 1}
+    assert {name: model["status"] for name, model in models.items()} == {
+        "broken.ply": "broken",
+        "new.ply": "new",
+        "painted/a.obj": "changed",
+        "parts/gone.ply": "gone",
+        "parts/grown.ply": "changed",
+    }
+    grown = models["parts/grown.ply"]
+    assert (grown["before"]["volume"], grown["after"]["volume"]) == (1.0, 3.0)
+    assert grown["after"]["size"] == [1.0, 1.0, 3.0] and grown["deviation"] == 1.0
+    assert "| parts/grown.ply | changed | 12 | 1 x 1 x 1 → 1 x 1 x 3 | 1 → 3 | 1 |" in rows
+    assert models["painted/a.obj"]["deviation"] == 0.0
+    assert models["broken.ply"]["after"]["error"] == "the header has no end_header"
+    # One camera: the box before the change is not as large as it could be alone.
+    before, after = (repository.picture(side, "parts/grown.ply") for side in ("before", "after"))
+    alone = e3d.render(e3d.box((1, 1, 1)), size=SIZE).color[..., :3].astype(int)
+    assert before.shape == after.shape == (SIZE[1], SIZE[0], 3)
+    assert area(before) < 0.6 * min(area(after), area(alone))
+    red, blue = (repository.picture(side, "painted/a.obj") for side in ("before", "after"))
+    assert (red[..., 0] - red[..., 2]).max() > 100 < (blue[..., 2] - blue[..., 0]).max()
+    assert repository.picture("different", "painted/a.obj").shape == before.shape
+    assert (repository.outside / "a folder" / "report.html").stat().st_size > 1000
+    with Image.open(repository.outside / "a folder" / "models.png") as page:
+        assert page.width > 3 * SIZE[0] and page.height > 5 * SIZE[1]
+    # The working tree of the base is gone again.
+    assert len(repository.git("worktree", "list").splitlines()) == 1
+
+
+def area(pixels):
+    """How many pixels stand out from the corner's."""
+    return int((np.abs(pixels - pixels[0, 0]).max(axis=-1) > 40).sum())
+
+
+def test_nothing_is_told_where_no_model_differs(repository):
+    repository.write("a.ply", e3d.box())
+    base = repository.commit()
+    repository.write("readme.txt", "text")
+    repository.commit()
+    outputs, models, rows = repository.told(base)
+    assert (outputs, models, rows) == ({"changed": 0, "broken": 0}, {}, [])
+    assert "none differs" in (repository.outside / "summary").read_text("utf-8")
+
+
+def test_a_file_written_anew_that_shows_the_same_is_no_change(repository):
+    repository.write("painted/a.obj", TRIANGLE)
+    repository.write("painted/a.mtl", "newmtl a\nKd 1 0 0\n")
+    base = repository.commit()
+    repository.write("painted/a.obj", f"# a comment\n{TRIANGLE}")
+    repository.write("painted/a.mtl", "# another\nnewmtl a\nKd 1 0 0\n")
+    repository.commit()
+    outputs, models, _ = repository.told(base)
+    assert outputs == {"changed": 0, "broken": 0} and models == {}
+
+
+def test_patterns_choose_the_models(repository):
+    base = repository.commit()
+    for name in ("one/a.ply", "two/a.ply", "two/deep/b.ply"):
+        repository.write(name, e3d.box())
+    repository.commit()
+    _, models, _ = repository.told(base, "two/**/*.ply\n\n")
+    assert set(models) == {"two/a.ply", "two/deep/b.ply"}
+
+
+def test_names_and_links_do_no_harm(repository):
+    name = "![x](https:$(touch b)`touch c`|<b> \u202e.ply"
+    base = repository.commit()
+    repository.write(name, e3d.box())
+    repository.write("-o.ply", e3d.box())
+    secret = repository.outside / "secret.ply"
+    e3d.box().save(secret)
+    (repository.folder / "link.ply").symlink_to(secret)
+    repository.commit()
+    outputs, models, _ = repository.told(base)
+    assert outputs["changed"] == 2
+    assert set(models) == {name.encode("ascii", "backslashreplace").decode(), "-o.ply"}
+    summary = (repository.outside / "summary").read_text("utf-8")
+    assert "<b>" not in summary and "![" not in summary and "`" not in summary
+    assert not {"b", "c"} & {path.name for path in repository.folder.iterdir()}
+
+
+@pytest.mark.parametrize("base", ["", "0" * 40, "HEAD", "--upload-pack=x"])
+def test_without_a_commit_the_action_says_so(repository, base):
+    repository.commit()
+    done = repository.run(base)
+    assert done.returncode == 2 and done.stderr.startswith("models: no commit to compare with")
+
+
+def test_the_base_is_fetched_where_a_checkout_holds_one_commit(repository, tmp_path):
+    repository.write("a.ply", e3d.box())
+    base = repository.commit()
+    repository.write("a.ply", e3d.torus())
+    repository.commit()
+    repository.git("config", "uploadpack.allowAnySHA1InWant", "true")
+    origin = repository.folder.rename(tmp_path / "origin")
+    command = ["git", "clone", "--quiet", "--depth=1", origin.as_uri(), repository.folder]
+    subprocess.run(command, check=True)
+    outputs, models, _ = repository.told(base)
+    assert outputs["changed"] == 1 and set(models) == {"a.ply"}
+
+
+def test_the_description_names_what_the_script_takes():
+    text = (ACTION / "action.yml").read_text("utf-8")
+    declared = text[text.index("inputs:") : text.index("outputs:")]
+    assert {*re.findall(r"^  (\w+):$", declared, re.M)} == {*re.findall(r"inputs\.(\w+)", text)}
+    taken = set(re.findall(r"MODELS_\w+", (ACTION / "draw.sh").read_text("utf-8")))
+    assert set(re.findall(r"(MODELS_\w+):", text)) == taken
+    page = (ACTION.parents[2] / "docs" / "golden.md").read_text("utf-8")
+    for name in {*re.findall(r"(?:inputs|outputs)\.(\w+)", text)}:
+        assert f"`{name}`" in page

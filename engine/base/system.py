@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -35,6 +36,11 @@ NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 FOLDER = getattr(os, "O_DIRECTORY", 0) and (
     getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | _OWN
 )
+
+
+def decoded_name(name: bytes) -> str:
+    """Return a file name of any bytes; `os.fsdecode` of Windows fails where they are no UTF-8."""
+    return name.decode(sys.getfilesystemencoding(), "surrogateescape")
 
 
 def usable_processors() -> int:

@@ -8,7 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from missing_here import skip_where_links_cannot_be_made
+from missing_here import skip_where_files_cannot_be_made
 
 
 def pytest_configure(config):
@@ -16,7 +16,7 @@ def pytest_configure(config):
     # tests that interrupt a frame or a command would wait for its end.
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    skip_where_links_cannot_be_made()
+    skip_where_files_cannot_be_made()
     # The options of whoever runs the tests are none of the tests'.
     os.environ["XDG_CONFIG_HOME"] = os.devnull
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):

@@ -2,23 +2,49 @@
 
 import contextlib
 import os
+import signal
 import tempfile
 
 import pytest
 
+# What ends a process at once, and how a pool tells that. Windows has no signals between processes.
+KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
+KILLED = "was ended by SIGKILL" if hasattr(signal, "SIGKILL") else f"ended with status {KILL:d}"
 
-def skip_where_links_cannot_be_made():
-    """Let `os.symlink` skip the test on Windows without the right, and under wine."""
+
+def skip_where_files_cannot_be_made():
+    """Let `os.symlink` and `os.mkfifo` skip the test where there are no such files.
+
+    Windows has no FIFOs, and makes links for those with the right to it; wine makes none.
+    """
+    if not _makes_links():
+        os.symlink = _skipping("symbolic links")
+    if not hasattr(os, "mkfifo"):
+        os.mkfifo = _skipping("FIFOs")
+
+
+def _makes_links():
     with tempfile.TemporaryDirectory() as folder:
         link = os.path.join(folder, "link")
         with contextlib.suppress(OSError):
             os.symlink(folder, link)
-        if not os.path.islink(link):
-            os.symlink = _skip
+        return os.path.islink(link)
 
 
-def _skip(*_arguments, **_options):
-    pytest.skip("symbolic links cannot be made here")
+class _NoSuchFile(pytest.skip.Exception, OSError):
+    """Skips a test; what is caught as an error by pytest, which makes links for convenience."""
+
+
+def _skipping(what):
+    def skip(*_arguments, **_options):
+        raise _NoSuchFile(f"{what} cannot be made here")
+
+    return skip
+
+
+def is_superuser():
+    """Return whether nothing is forbidden to this process; Windows asks for each file instead."""
+    return hasattr(os, "geteuid") and os.geteuid() == 0
 
 
 def peak_memory():
@@ -28,3 +54,25 @@ def peak_memory():
     except ImportError:
         return 0
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10
+
+
+def is_running(process):
+    """Return whether there is such a process; what is dead, and nobody has asked for, is none."""
+    if os.name == "nt":
+        return _is_running_on_windows(process)
+    with contextlib.suppress(OSError), open(f"/proc/{process}/stat") as file:
+        return file.read().rpartition(")")[2].split()[0] not in "ZX"
+    return False
+
+
+def _is_running_on_windows(process):
+    import ctypes
+
+    synchronize, timed_out = 0x100000, 0x102
+    kernel = ctypes.WinDLL("kernel32")
+    handle = kernel.OpenProcess(synchronize, False, process)
+    if not handle:
+        return False
+    state = kernel.WaitForSingleObject(handle, 0)
+    kernel.CloseHandle(handle)
+    return state == timed_out

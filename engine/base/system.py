@@ -10,14 +10,19 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import sys
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import queue
 
 _BINARY = getattr(os, "O_BINARY", 0)  # prevents Windows from changing line ends
 _OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
 _TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)  # errors that mean the file is already locked
 # errors of file systems that cannot sync
 _NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)
+_SHORT = 0.5  # seconds
 
 #: Flags of `os.open`: read bytes, and do not pass the handle to child processes.
 READ = os.O_RDONLY | _BINARY | _OWN
@@ -31,6 +36,11 @@ NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 FOLDER = getattr(os, "O_DIRECTORY", 0) and (
     getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | _OWN
 )
+
+
+def decoded_name(name: bytes) -> str:
+    """Return a file name of any bytes; `os.fsdecode` of Windows fails where they are no UTF-8."""
+    return name.decode(sys.getfilesystemencoding(), "surrogateescape")
 
 
 def usable_processors() -> int:
@@ -52,7 +62,7 @@ def ending_signals() -> tuple[Any, ...]:
     """Return the signals by which the system asks a program to end."""
     import signal
 
-    names = ("SIGTERM", "SIGHUP")
+    names = ("SIGTERM", "SIGHUP", "SIGBREAK")  # the last one when a console of Windows closes
     return tuple(getattr(signal, name) for name in names if hasattr(signal, name))
 
 
@@ -63,15 +73,13 @@ def has_alarm() -> bool:
     return hasattr(signal, "setitimer") and hasattr(signal, "SIGALRM")
 
 
-def kill_group(process: int) -> None:
-    """End a process that leads a group and, where groups exist, its whole group."""
-    import signal
+def next_in(waiting: queue.SimpleQueue) -> Any:
+    """Wait for the next item of a queue; on Windows, Ctrl-C interrupts only short waits."""
+    import queue
 
-    with contextlib.suppress(OSError):
-        if hasattr(os, "killpg"):
-            os.killpg(process, signal.SIGKILL)
-        else:
-            os.kill(process, signal.SIGTERM)  # on Windows, this kills at once
+    while True:
+        with contextlib.suppress(queue.Empty):
+            return waiting.get(timeout=_SHORT)
 
 
 def after_fork(function: Callable[[], object]) -> None:

@@ -20,6 +20,7 @@ from engine3d.batch import load_mesh
 from engine3d.datasets import random_camera, random_pose
 
 HERE = Path(__file__).parent
+KILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows ends processes otherwise
 
 
 def build(scene, generator, count=3):
@@ -57,11 +58,11 @@ def die_once(scene, generator):
     mark = HERE / "died"
     if not mark.exists():
         mark.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
+        os.kill(os.getpid(), KILL)
 
 
 def die(scene, generator):
-    os.kill(os.getpid(), signal.SIGKILL)
+    os.kill(os.getpid(), KILL)
 
 
 def sleep(scene, generator):

@@ -1,10 +1,10 @@
 """Batches by Dask: the same bytes, also when a worker is killed; a clear error without it."""
 
 import os
-import signal
 import sys
 
 import pytest
+from missing_here import KILL
 
 import engine3d as e3d
 from engine3d.batch import read_manifest, run
@@ -42,7 +42,7 @@ def test_dask_draws_the_same_even_if_a_worker_is_killed(cluster, tasks, tmp_path
         def kill_one(task, outcome, text):
             seen.append(task)
             if len(seen) == 8:
-                os.kill(processes[0], signal.SIGKILL)
+                os.kill(processes[0], KILL)
 
         killed = run(tasks, tmp_path / "killed", executor=client, progress=kill_one)
     assert killed.hash == serial.hash and killed.failures == []

@@ -1,6 +1,5 @@
 """Pictures that take too long: their processes are ended, all others are drawn."""
 
-import contextlib
 import os
 import subprocess
 import sys
@@ -8,6 +7,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from missing_here import is_running
 from patience import HUNG
 
 from engine3d.apps.batch.processes import ProcessPool, TimeLimitError, WorkerDiedError
@@ -16,13 +16,6 @@ from engine3d.batch import read_manifest, run
 
 SCRIPT = {"script": "script.py"}
 LIMIT = 5.0  # a busy machine loads the engine in less
-
-
-def is_running(process):
-    """Whether there is such a process; what is dead, and nobody has asked for, is none."""
-    with contextlib.suppress(OSError), open(f"/proc/{process}/stat") as file:
-        return file.read().rpartition(")")[2].split()[0] not in "ZX"
-    return False
 
 
 def test_a_call_that_takes_too_long_ends_its_process_alone():

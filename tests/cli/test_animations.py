@@ -114,6 +114,7 @@ def test_mp4(model, capsys, tmp_path, size):
     )
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="starts a script of POSIX's shell")
 def test_an_mp4_that_fails_leaves_no_file(model, capsys, monkeypatch, tmp_path):
     program = tmp_path / "ffmpeg"
     program.write_text("#!/bin/sh\necho 'no such codec' >&2\nexit 3\n")

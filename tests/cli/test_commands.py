@@ -226,7 +226,7 @@ def headings(text):
 
 def option_lines(text):
     """The long options that a help has a line for."""
-    return set(re.findall(r"^  (?:-\w, )?(--[\w-]+)", text, re.M))
+    return set(re.findall(r"^  (?:-\w[^,]*, )?(--[\w-]+)", text, re.M))
 
 
 @pytest.mark.parametrize("command", ["run", "render"])

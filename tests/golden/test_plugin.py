@@ -1,13 +1,13 @@
 """The fixture `golden` in runs of pytest of its own."""
 
 import json
-import os
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import numpy as np
 import pytest
 from golden.samples import changed, write_png
+from missing_here import is_superuser
 
 import engine3d as e3d
 import engine3d.rendering.frame  # inner runs find it, and NumPy, imported
@@ -281,7 +281,7 @@ def test_a_folder_that_cannot_be_written_to(run):
     result.stdout.fnmatch_lines(["*FileAccessError: *test_one.png: cannot write: *"])
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser writes to read-only folders, too")
+@pytest.mark.skipif(is_superuser(), reason="the superuser writes to read-only folders, too")
 def test_a_read_only_folder(run):
     run.folder.mkdir(parents=True)
     run.folder.chmod(0o500)

@@ -35,6 +35,15 @@ def test_where_there_are_no_locks_nobody_has_one(tmp_path, monkeypatch, number, 
         assert system.locked(file.fileno()) is alone
 
 
+@pytest.mark.parametrize(
+    "name", [b"a", b"\xc3\xa9", b"\xe9t\xe9", b"\xed\xb3\xbf", bytes(range(256))]
+)
+def test_names_of_any_bytes(name):
+    decoded = system.decoded_name(name)
+    assert decoded.encode(sys.getfilesystemencoding(), "surrogateescape") == name
+    assert sys.platform == "win32" or decoded == os.fsdecode(name)
+
+
 def test_ending_signals_and_processors():
     assert "SIGTERM" in {number.name for number in system.ending_signals()}
     assert 1 <= system.usable_processors() <= os.cpu_count()

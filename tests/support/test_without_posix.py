@@ -18,7 +18,8 @@ PACKAGE = Path(engine3d.__file__).parent
 KNOWN = {
     "apps/agents/server_limits.py": {"ITIMER_REAL", "SIGALRM"},  # has setitimer
     "compat/open3d/_stand_ins.py": {"memfd_create"},  # on Linux
-    "base/system.py": {"SIGKILL", "sysconf"},  # where there is killpg; AttributeError
+    "base/process_groups.py": {"SIGKILL", "killpg"},  # not on Windows
+    "base/system.py": {"sysconf"},  # AttributeError
     "apps/editor/ui/interrupts.py": {"setitimer", "ITIMER_REAL", "SIGALRM"},  # has_alarm()
     "base/files/atomic_write.py": {"set_blocking"},  # where AT_ONCE is a flag
     "apps/terminal/device.py": {"O_NOCTTY"},  # once termios is imported

@@ -15,14 +15,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from missing_here import KILL, is_superuser
 from patience import HUNG
 from plain_picture import render
 
 import engine3d as e3d
 from engine3d.errors import FileAccessError
 from engine3d.io.output.animation_files import save_animation
-
-resource = pytest.importorskip("resource", reason="limits of POSIX")
 
 BEFORE = b"what was there before"
 LIMIT = 64  # bytes: less than any of these files
@@ -92,6 +91,7 @@ fails = contextlib.contextmanager(check_failure)
 @contextlib.contextmanager
 def files_may_hold(size):
     """No file may grow over so many bytes; nor does Python then leave a cut-off .pyc behind."""
+    resource = pytest.importorskip("resource", reason="limits of POSIX")
     limits, writes = resource.getrlimit(resource.RLIMIT_FSIZE), sys.dont_write_bytecode
     sys.dont_write_bytecode = True
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
@@ -145,19 +145,20 @@ def test_the_last_file_of_several_fails(tmp_path):
 def read_only_folder():
     """A folder that this process cannot write to, not even as root."""
     with tempfile.TemporaryDirectory() as name:
-        folder, is_root = Path(name), os.geteuid() == 0
+        folder, is_root = Path(name), is_superuser()
         yield folder, lambda: folder.chmod(0o555)
         if is_root:
             os.seteuid(0)
         folder.chmod(0o755)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="folders of Windows have no such bit")
 @every_writer
 def test_a_folder_that_cannot_be_written_to(name):
     with read_only_folder() as (folder, close):
         with fails(folder, name, errno.EACCES) as path:
             close()
-            if os.geteuid() == 0:
+            if is_superuser():
                 os.seteuid(65534)
             try:
                 WRITERS[name](path)
@@ -178,10 +179,12 @@ from engine3d.apps.cli import main
 finish = atomic_write._Part.finish
 def stop(part):
     part.file.flush()
-    os.kill(os.getpid(), int(sys.argv[1]))
+    if sys.argv[2] == "killed":
+        os.kill(os.getpid(), int(sys.argv[1]))
+    signal.raise_signal(int(sys.argv[1]))
     finish(part)
 atomic_write._Part.finish = stop
-sys.exit(main(sys.argv[2:]))
+sys.exit(main(sys.argv[3:]))
 """
 SMALL = ["--size", "48x32"]
 COMMANDS = {
@@ -193,29 +196,41 @@ COMMANDS = {
     "out.stl": ["city", "out.stl", "--triangles", "20000"],
     "out.json": ["bench", "--workloads", "mesh", "--seconds", "0.01", *SMALL, "--json", "out.json"],
 }
-SIGNALS = [(name, number) for name in COMMANDS for number in (signal.SIGTERM, signal.SIGKILL)]
-SIGNALS += [("out.png", signal.SIGINT), ("mesh.obj", signal.SIGINT), ("out.png", signal.SIGHUP)]
 
 
-@pytest.mark.parametrize(("name", "number"), SIGNALS, ids=lambda part: getattr(part, "name", part))
-def test_a_signal_in_the_middle(tmp_path, name, number):
-    a_mesh().save(tmp_path / "model.obj")
-    prepare(tmp_path, name)
-    before = contents(tmp_path)
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_process_is_killed_in_the_middle(tmp_path, name):
+    returncode, _, before, after = stopped(tmp_path, name, KILL, "killed")
+    assert returncode == (KILL if sys.platform == "win32" else -KILL)
+    assert {name: after[name] for name in after if not name.endswith(".part")} == before
+
+
+ASKED = [(name, "SIGTERM") for name in COMMANDS]
+ASKED += [("out.png", "SIGINT"), ("mesh.obj", "SIGINT"), ("out.png", "SIGHUP")]
+ASKED += [("out.png", "SIGBREAK")]
+
+
+@pytest.mark.parametrize(("name", "asked"), ASKED)
+def test_a_signal_in_the_middle(tmp_path, name, asked):
+    number = getattr(signal, asked, None) or pytest.skip("no signal of this system")
+    returncode, said, before, after = stopped(tmp_path, name, number, "asked")
+    assert returncode == 128 + number
+    assert b"Traceback" not in said
+    assert after == before
+
+
+def stopped(folder, name, number, how):
+    """Stop a command; return its status, what it said, and what was in the folder before, after."""
+    a_mesh().save(folder / "model.obj")
+    prepare(folder, name)
+    before = contents(folder)
     done = subprocess.run(
-        [sys.executable, "-c", STOPPED, str(int(number)), *COMMANDS[name]],
-        cwd=tmp_path,
+        [sys.executable, "-c", STOPPED, str(int(number)), how, *COMMANDS[name]],
+        cwd=folder,
         capture_output=True,
         timeout=HUNG,
     )
-    after = contents(tmp_path)
-    if number == signal.SIGKILL:
-        assert done.returncode == -number
-        after = {name: data for name, data in after.items() if not name.endswith(".part")}
-    else:
-        assert done.returncode == 128 + number
-        assert b"Traceback" not in done.stderr
-    assert after == before
+    return done.returncode, done.stderr, before, contents(folder)
 
 
 @pytest.mark.parametrize(
@@ -223,6 +238,7 @@ def test_a_signal_in_the_middle(tmp_path, name, number):
 )
 def test_standard_output_on_a_full_disk(tmp_path, arguments):
     a_mesh().save(tmp_path / "model.obj")
+    Path("/dev/full").exists() or pytest.skip("needs /dev/full")
     with open("/dev/full", "wb") as full:
         done = subprocess.run(
             [sys.executable, "-m", "engine3d", *arguments],

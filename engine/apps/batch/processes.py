@@ -19,8 +19,8 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
 
+from ...base.process_groups import LeadingProcess
 from ...base.side_by_side import Thread
-from ...base.system import kill_group
 from ...errors import OutOfMemoryError
 from .worker import BEGUN, receive, send
 
@@ -107,7 +107,7 @@ class _Worker:
         self._number, self._calls = number, calls
         self._limit, self._idle = limit, idle
         self._stopped = False
-        self.process: subprocess.Popen | None = None
+        self.process: LeadingProcess | None = None
         self._thread = Thread(target=self._serve, daemon=True)
         self._thread.start()
 
@@ -153,7 +153,7 @@ class _Worker:
         else:
             future.set_exception(result)
 
-    def _asked(self, call: tuple, again: bool = True) -> subprocess.Popen:
+    def _asked(self, call: tuple, again: bool = True) -> LeadingProcess:
         """Return the process after it has started a call."""
         if self.process is None or self.process.poll() is not None:
             self.process = _started(self._idle)
@@ -170,7 +170,7 @@ class _Worker:
         assert begun == BEGUN
         return self.process
 
-    def _result(self, process: subprocess.Popen) -> tuple[bool, Any]:
+    def _result(self, process: LeadingProcess) -> tuple[bool, Any]:
         """Return the process's result; kill the process if that takes too long."""
         if self._limit is None:
             return receive(process.stdout)
@@ -179,7 +179,7 @@ class _Worker:
         def end() -> None:
             if not has_answered.wait(self._limit):
                 is_over.set()
-                kill_group(process.pid)
+                process.kill_group()
 
         timer = Thread(target=end, daemon=True)
         timer.start()
@@ -211,11 +211,7 @@ class _Worker:
         return f"worker {self._number} (process {process.pid}) {how}"
 
 
-def _started(idle: float | None) -> subprocess.Popen:
+def _started(idle: float | None) -> LeadingProcess:
     program = _PROGRAM.format(path=sys.path, idle=idle)
-    return subprocess.Popen(
-        [sys.executable, "-c", program],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        start_new_session=True,
-    )
+    command = [sys.executable, "-c", program]
+    return LeadingProcess(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)

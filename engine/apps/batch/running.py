@@ -25,6 +25,7 @@ from ...base.files.hashing import hash_of_file
 from ...base.files.making_folders import make_folder_of
 from ...base.numbers import real, shown
 from ...base.plugins.discovery import are_on
+from ...base.system import next_in
 from ...base.thread_count import MAX_THREADS
 from ...base.validation import whole_number
 from ...choices import Backend
@@ -175,7 +176,7 @@ class _Run:
         try:
             self._hand_out()
             while self._running:
-                future = self._finished.get()
+                future = next_in(self._finished)
                 self._take_in(future, self._running.pop(future))
                 self._hand_out()
         finally:

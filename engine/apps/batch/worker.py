@@ -1,10 +1,10 @@
 """A worker process: the counterpart of `processes`.
 
-In: pickled calls on standard input, each after its length. Out: pickled results on the original
-standard output; output of scripts goes to standard error. When the parent process is gone, standard
-input ends: the worker stops at once and removes partial files. It is a separate program that does
-not import the parent's main module. It reports the start of each call, so that the parent can
-measure the time.
+In: pickled calls on the original standard input, each after its length. Out: pickled results on the
+original standard output. Scripts read nothing, and their output goes to standard error. When the
+parent process is gone, the input ends: the worker stops at once and removes partial files. It is a
+separate program that does not import the parent's main module. It reports the start of each call,
+so that the parent can measure the time.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ import pickle
 import queue
 import signal
 import struct
-import sys
 from typing import Any, BinaryIO
 
 from ...base.side_by_side import Thread
@@ -55,12 +54,16 @@ def main(idle: float | None = None) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     # Ending this process must act like Ctrl-C: no partial file remains.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    results = os.fdopen(os.dup(1), "wb")
+    asked, results = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    # Besides, a library that Windows loads may ask what standard input is, which waits while
+    # another thread reads from it.
+    with open(os.devnull, "rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
     os.dup2(2, 1)
     calls: queue.SimpleQueue = queue.SimpleQueue()
     try:
         # The parent may be gone already: the listener then stops this thread at once.
-        Thread(target=_listen, args=(sys.stdin.buffer, calls), daemon=True).start()
+        Thread(target=_listen, args=(asked, calls), daemon=True).start()
         patience = None  # the first call is on its way
         while (call := calls.get(timeout=patience)) is not None:
             patience = idle

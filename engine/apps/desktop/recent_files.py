@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ...base.files import json_records
 from ...base.files.atomic_write import atomic_write
+from ...base.system import decoded_name
 from ...errors import FileAccessError, FileFormatError, warn
 from .user_folders import user_path
 
@@ -79,4 +80,4 @@ def _lines(path: Path | None) -> list[str]:
         text = b"" if path is None else json_records.read_small(path, _LARGEST)
     except (FileAccessError, FileFormatError):
         return []
-    return [os.fsdecode(line) for line in text.splitlines() if b"\0" not in line]
+    return [decoded_name(line) for line in text.splitlines() if b"\0" not in line]

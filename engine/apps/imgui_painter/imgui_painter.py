@@ -77,9 +77,9 @@ class ImguiPainter:
 
     def draw(self, draw_data: imgui.ImDrawData, pixels: NDArray[np.uint8]) -> None:
         """Draw a frame over a picture; (0, 0) of its display is the picture's top left corner."""
-        for texture in draw_data.textures:
+        for texture in _items(draw_data.textures):
             self._follow(texture)
-        lists = [drawn for drawn in draw_data.cmd_lists if drawn.idx_buffer.size()]
+        lists = [drawn for drawn in _items(draw_data.cmd_lists) if drawn.idx_buffer.size()]
         if not lists:
             return
         vertices = _joined([drawn.vtx_buffer for drawn in lists], VERTEX)
@@ -100,7 +100,7 @@ class ImguiPainter:
         places: dict[Any, int] = {}
         first_vertex = first_index = 0
         for drawn in lists:
-            for command in drawn.cmd_buffer:
+            for command in _items(drawn.cmd_buffer):
                 number = command.get_tex_id()
                 if command.elem_count and number in self._textures:
                     rect = command.clip_rect
@@ -129,6 +129,11 @@ class ImguiPainter:
             self.remove(texture.get_tex_id())
             texture.set_tex_id(0)
             texture.set_status(status.destroyed)
+
+
+def _items(vector: Any) -> list[Any]:
+    """Return the items of an ImGui vector: on Windows, its iterator may give them other types."""
+    return [vector[place] for place in range(vector.size())]
 
 
 def _joined(vectors: list[Any], dtype: np.dtype) -> NDArray[Any]:

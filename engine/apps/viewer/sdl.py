@@ -45,6 +45,11 @@ def find_screen() -> None:
         raise DisplayError("no screen (neither DISPLAY nor WAYLAND_DISPLAY is set)")
 
 
+def _has_x11() -> bool:
+    """Return whether there is an X server for SDL; other systems may have one for some programs."""
+    return bool(os.environ.get("DISPLAY")) and sys.platform not in ("win32", "darwin")
+
+
 def open_video():
     """Load SDL, start its video and return the module; balance each call with `close_video`."""
     find_screen()
@@ -53,10 +58,10 @@ def open_video():
     # The class name that window managers see.
     sdl.SDL_setenv(b"SDL_VIDEO_X11_WMCLASS", b"engine3d", 0)
     sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, b"0")
-    if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY"):
-        # Searching for Wayland as well would print errors.
-        sdl.SDL_SetHint(sdl.SDL_HINT_VIDEODRIVER, b"x11")
-    if os.environ.get("DISPLAY"):
+    if _has_x11():
+        if not os.environ.get("WAYLAND_DISPLAY"):
+            # Searching for Wayland as well would print errors.
+            sdl.SDL_SetHint(sdl.SDL_HINT_VIDEODRIVER, b"x11")
         forgive_late_messages()
     if sdl.SDL_InitSubSystem(sdl.SDL_INIT_VIDEO) != 0:
         raise DisplayError(f"no screen (SDL: {last_error(sdl)})")

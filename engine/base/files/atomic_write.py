@@ -64,7 +64,7 @@ def checked_path(path: str | bytes | os.PathLike[str]) -> str:
     """Return the path of an output file as a string."""
     try:
         decoded = os.fsdecode(path)
-    except TypeError:
+    except (TypeError, UnicodeDecodeError):
         raise InvalidArgumentError(f"path must be a str or path-like, not {shown(path)}") from None
     if "\0" in decoded:
         raise FileAccessError("cannot write: the path holds a zero byte", decoded)

@@ -6,10 +6,11 @@ trailing parts of a path from another machine. This module does not access the d
 
 from __future__ import annotations
 
-import os
 import re
 import unicodedata
 from collections.abc import Iterator
+
+from ...base.system import decoded_name
 
 # Encodings of names that are not UTF-8, besides Latin-1, which is the fallback: of Japanese,
 # Chinese, Korean, Western, Russian and Central European Windows, of Macs, and of archives unpacked
@@ -82,7 +83,7 @@ def _in_other_encodings(name: str) -> Iterator[str]:
         letters = name.encode("latin-1")
     except UnicodeEncodeError:
         return
-    yield os.fsdecode(letters)
+    yield decoded_name(letters)
     for encoding in _ENCODINGS:
         try:
             text = letters.decode(encoding)

@@ -130,7 +130,7 @@ class _Passes:
             material.shininess = _BLINN * look.power
         if not is_white and look.ambient and not look.is_unlit:
             material.emissive = linear(np.clip(look.ambient * look.ambient_color, 0.0, 1.0))
-        part.added(scene, material)
+        part.added(scene, material).cast_shadows = False
 
 
 def _white(paint: Paint) -> Paint:

@@ -68,7 +68,7 @@ class View(RemoteFrameBuffer):
     Parameters
     ----------
     thing : path, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-        An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio and Open3D.
+        Arrays are as for `render`. Other libraries are trimesh, PyVista, meshio and Open3D.
         As for `engine3d.render`.
     size : (int, int)
         Width and height in the page's pixels, at first: the corner can be dragged.

@@ -173,7 +173,7 @@ class Renderer(rendering.Renderer):
         Parameters
         ----------
         scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-            An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio, Open3D,
+            Arrays are as for `render`. Other libraries are trimesh, PyVista, meshio, Open3D,
             CadQuery and build123d.
         options, **keywords
             As for `render`.
@@ -207,7 +207,7 @@ class Renderer(rendering.Renderer):
         Parameters
         ----------
         scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-            An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio, Open3D,
+            Arrays are as for `render`. Other libraries are trimesh, PyVista, meshio, Open3D,
             CadQuery and build123d.
             A file is opened and seen as by ``engine3d render``; an array holds points. Of a node
             its subtree is drawn, at its world pose.

@@ -117,6 +117,24 @@ def test_a_mirror_shows_what_lies_behind_the_viewer(face, is_cube):
     assert np.allclose(middle(pl), expected, atol=3)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_maps_count_for_light_of_surroundings(seed):
+    roughness, metallic = np.random.default_rng(seed).integers(40, 256, 2).tolist()
+
+    def drawn(texture, **options):
+        pl = plotter(lighting="none")
+        actor = pl.add_mesh(pv.Plane(), pbr=True, color=(200, 120, 60), **options)
+        if texture is not None:
+            actor.prop.SetORMTexture(texture)
+        pl.set_environment_texture(flat_texture(200, 180, 90))
+        pl.view_xy()
+        return middle(pl)
+
+    mapped = drawn(flat_texture(255, roughness, metallic), roughness=1.0, metallic=1.0)
+    plain = drawn(None, roughness=roughness / 255, metallic=metallic / 255)
+    assert np.allclose(mapped, plain, atol=1)
+
+
 def test_white_surroundings_show_a_white_ball_white():
     pl = plotter(lighting="none")
     pl.add_mesh(pv.Sphere(), pbr=True, metallic=1.0, roughness=0.3, color="white")
@@ -189,3 +207,26 @@ def test_what_is_drawn_gives_no_warning():
     with warnings.catch_warnings():
         warnings.simplefilter("error", e3d.Engine3DWarning)
         pl.engine3d.screenshot()
+
+
+def test_a_scene_keeps_coats_maps_environments_and_shadows():
+    ball = pv.Sphere()
+    ball.texture_map_to_sphere(inplace=True)
+    pl = plotter(lighting="none")
+    pl.add_light(pv.Light(light_type="scene light", position=(3, 3, 3)))
+    prop = pl.add_mesh(ball, pbr=True, metallic=0.5, roughness=0.5).prop
+    prop.SetCoatStrength(0.75)
+    prop.SetORMTexture(flat_texture(10, 20, 30))
+    prop.SetEmissiveTexture(flat_texture(40, 50, 60, is_srgb=True))
+    pl.set_environment_texture(flat_texture(90, 80, 70))
+    pl.enable_shadows()
+    scene = pl.engine3d.scene()
+    mesh = next(n.object for n in scene.nodes if isinstance(n.object, e3d.Mesh))
+    material = mesh.materials[0]
+    assert material.clearcoat == 0.75 and mesh.uvs is not None
+    assert material.metallic_roughness_texture.pixels[0, 0, :3].tolist() == [10, 20, 30]
+    assert material.occlusion_texture.pixels[0, 0, :3].tolist() == [10, 20, 30]
+    assert material.emissive_texture.pixels[0, 0, :3].tolist() == [40, 50, 60]
+    assert np.allclose(scene.environment.pixels[0, 0], np.array([90, 80, 70]) / 255)
+    lights = [n.object for n in scene.nodes if isinstance(n.object, e3d.DirectionalLight)]
+    assert [light.shadow for light in lights] == ["exact"]

@@ -1,10 +1,11 @@
 """The maps of a physical material of VTK, and what of such a material is not drawn.
 
-In: a ``vtkProperty`` and the ``vtkPolyData`` that has it. Out: `Maps`, and warnings.
+In: a ``vtkProperty`` and the ``vtkPolyData`` that has it. Out: `Maps`, materials, and warnings.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,8 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ...errors import warn
-from ._parts import Maps
+from ...model.materials.material import Material
+from ._parts import Maps, Part
 from ._scalar_colors import texture_of
 
 #: Textures that change normals: VTK draws them where points have tangents.
@@ -33,6 +35,18 @@ def maps_of(given: Any, data: Any) -> Maps | None:
         return None
     material, emissive = (None if one is None else texture_of(one) for one in found)
     return Maps(uvs_of(coordinates), material, emissive)
+
+
+def make_physical(material: Material, part: Part) -> None:
+    """Give a material what a part's physical look says of mirrored light."""
+    look = part.look
+    material.metallic, material.roughness = look.metallic, look.roughness
+    root = math.sqrt(look.base_reflectance)
+    material.ior = (1.0 + root) / max(1.0 - root, 1e-6)
+    if part.maps is not None:
+        material.metallic_roughness_texture = part.maps.material
+    if look.coat is not None:
+        material.clearcoat, material.clearcoat_roughness = look.coat.strength, look.coat.roughness
 
 
 def _tell_undrawn(given: Any, data: Any) -> None:

@@ -182,12 +182,18 @@ class Part:
             points=np.arange(len(self.places), dtype=np.int32) if self.is_points else None,
             normals=None if self.normals is None else _unit(self.normals),
             colors=self.paint.rgba,
-            uvs=self.paint.uvs,
+            uvs=self._uvs,
             materials=[material],
         )
         if self.spots is None:
             return scene.add(mesh)
         return scene.add(InstancedMesh(mesh, self.spots, colors=self.spot_colors))
+
+    @property
+    def _uvs(self) -> NDArray[np.float32] | None:
+        if self.paint.uvs is not None or self.maps is None:
+            return self.paint.uvs
+        return self.maps.uvs
 
     def material(self, factor: float = 1.0, opacity: float | None = None) -> Material:
         """Return the material; ``factor`` multiplies its colour."""

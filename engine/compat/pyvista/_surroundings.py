@@ -18,6 +18,7 @@ from ...base import linalg
 from ...model.environments.environment import Environment
 from ...model.materials.material import Material
 from ...model.scene.scene import Scene
+from ._material_maps import make_physical
 from ._parts import Part
 from ._renderer_view import View, product
 
@@ -46,10 +47,13 @@ class Surroundings:
     environment : Environment
     turn : (4, 4) float64
         The environment's directions from those of view space.
+    is_upright : bool
+        Whether its directions are those of the world.
     """
 
     environment: Environment
     turn: NDArray[np.float64]
+    is_upright: bool
 
     def scene(self, parts: list[Part]) -> Scene:
         """Return a scene of parts that are lit by nothing else; its camera stands at ``turn``."""
@@ -77,10 +81,11 @@ def surroundings_of(renderer: Any, view: View) -> Surroundings | None:
     renderer.GetEnvironmentUp(up)
     turn = np.eye(4)
     turn[:3, :3] = [right, up, linalg.cross(right, up)]
+    is_upright = bool((turn == np.eye(4)).all())
     back = np.eye(4)
     back[:3, :3] = view.view[:3, :3].T
     pixels = images[0][::-1] if count == 1 else _unfolded(images)
-    return Surroundings(Environment(pixels), product(turn, back))
+    return Surroundings(Environment(pixels), product(turn, back), is_upright)
 
 
 def _light(image: Any, is_coded: bool) -> NDArray[np.float32] | None:
@@ -125,11 +130,5 @@ def _material(part: Part) -> Material:
     if not look.is_physical or look.is_unlit:
         return Material(color=(0.0, 0.0, 0.0), unlit=True, two_sided=True)
     material = part.material()
-    material.metallic, material.roughness = look.metallic, look.roughness
-    root = math.sqrt(look.base_reflectance)
-    material.ior = (1.0 + root) / max(1.0 - root, 1e-6)
-    if part.maps is not None and part.maps.material is not None:
-        material.metallic_roughness_texture = part.maps.material
-    if look.coat is not None:
-        material.clearcoat, material.clearcoat_roughness = look.coat.strength, look.coat.roughness
+    make_physical(material, part)
     return material

@@ -209,8 +209,8 @@ class Renderer(rendering.Renderer):
         scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
             Arrays are as for `render`. Other libraries are trimesh, PyVista, meshio, Open3D,
             CadQuery and build123d.
-            A file is opened and seen as by ``engine3d render``; an array holds points. Of a node
-            its subtree is drawn, at its world pose.
+            A file is opened and seen as by ``engine3d render``. Of a node its subtree is drawn, at
+            its world pose.
         camera : None, Node or (Camera, pose)
             A node of this scene. None uses its first visible camera; without one, all of the thing
             shows. The cameras of files count only if they are loaded as scenes. The pose for a file

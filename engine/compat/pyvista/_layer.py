@@ -163,7 +163,9 @@ class _Solid:
     ) -> None:
         self._lamps, self._view, self._points = lamps, view, points
         self._around = surroundings
-        self._reflecting = surroundings and surroundings.scene(parts)
+        self._reflecting = None
+        if surroundings is not None and any(part.look.is_physical for part in parts):
+            self._reflecting = surroundings.scene(parts)
         self._scene = Scene(background=None, ambient=(0, 0, 0))
         self._unfinished: dict[int, _Unfinished] = {}
         self._maps = {name: scene for name in _MAPS if (scene := _map_scene(parts, name))}

@@ -73,8 +73,9 @@ def surroundings_of(renderer: Any, view: View) -> Surroundings | None:
     count = 6 if texture.GetCubeMap() else 1
     texture.Update()
     is_coded = renderer.GetEnvMapPrefiltered().GetConvertToLinear()
-    images = [_light(texture.GetInputDataObject(k, 0), is_coded) for k in range(count)]
-    if any(image is None for image in images):
+    found = [_light(texture.GetInputDataObject(k, 0), is_coded) for k in range(count)]
+    images = [image for image in found if image is not None]
+    if len(images) < count:
         return None
     right, up = np.zeros(3), np.zeros(3)
     renderer.GetEnvironmentRight(right)

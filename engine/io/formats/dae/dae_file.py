@@ -15,8 +15,7 @@ from ...reading.number_arrays import NotANumberError, read_numbers
 from ...reading.sources import Source
 from ...reading.text import shown
 from ...reading.warning_list import WarningList
-from ...reading.xml_elements import Element, read_elements
-from ...reading.xml_file import XmlFile
+from ...reading.xml_elements import Element, XmlFile, read_elements
 
 # The indices of a file are below this.
 _MOST_INDEX = 2**31

@@ -15,9 +15,8 @@ from ....base.near_words import meant
 from ...reading.sources import Source
 from ...reading.text import shown
 from ...reading.warning_list import WarningList
-from ...reading.xml_elements import Element, read_elements
+from ...reading.xml_elements import Element, XmlFile, read_elements
 from ...reading.xml_events import XmlFault
-from ...reading.xml_file import XmlFile
 
 _XACRO = "this is xacro, from which URDF is made: xacro IN.urdf.xacro > OUT.urdf"
 # A declaration that does not begin the file, as XML demands.

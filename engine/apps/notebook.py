@@ -17,6 +17,7 @@ import numpy as np
 from .._native.images import encode_png
 from ..base.calls import keywords_of, refuse_unknown
 from ..base.image_size import check_size
+from ..base.optional_packages import needed
 from ..errors import InvalidArgumentError
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
@@ -39,7 +40,7 @@ try:
     from jupyter_rfb import RemoteFrameBuffer
 except ImportError as error:
     raise ImportError(
-        "engine3d.notebook needs the package jupyter_rfb: pip install 'engine3d[notebook]'",
+        needed("engine3d.notebook needs", "jupyter_rfb", "notebook"),
         name=error.name,
     ) from error
 
@@ -67,7 +68,7 @@ class View(RemoteFrameBuffer):
     Parameters
     ----------
     thing : path, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-        An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio and Open3D.
+        Arrays are as for `render`. Other libraries are trimesh, PyVista, meshio and Open3D.
         As for `engine3d.render`.
     size : (int, int)
         Width and height in the page's pixels, at first: the corner can be dragged.

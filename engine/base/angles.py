@@ -19,6 +19,10 @@ from .validation import finite
 FOUR_TURNS = 8.0 * math.pi
 
 
+class Angle(float):
+    """Radians that were given with their unit, and therefore are no length."""
+
+
 def finite_angle(value: float, what: str) -> float:
     """Return an angle of any size, checked to be a finite number of radians."""
     number = finite(value, what)

@@ -8,13 +8,17 @@ from __future__ import annotations
 
 from typing import Any
 
-import meshio
-import numpy as np
-from meshio._helpers import extension_to_filetypes
+from ..base.optional_packages import require
 
-from ..io.reading.loading import load_mesh
-from ..io.reading.reader_registry import formats
-from ..model.geometry.mesh import Mesh
+require("meshio", __name__)
+
+import meshio  # noqa: E402
+import numpy as np  # noqa: E402
+from meshio._helpers import extension_to_filetypes  # noqa: E402
+
+from ..io.reading.loading import load_mesh  # noqa: E402
+from ..io.reading.reader_registry import formats  # noqa: E402
+from ..model.geometry.mesh import Mesh  # noqa: E402
 
 __all__ = ["mesh_of", "read", "register"]
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..base.numbers import shown
+from ..base.optional_packages import needed
 from ..errors import InvalidArgumentError
 from ..model.geometry.mesh import Mesh
 from ..model.geometry.posing import posed_mesh
@@ -191,7 +192,7 @@ def mesh_to_trimesh(mesh: Mesh) -> Any:
     try:
         import trimesh
     except ImportError as error:
-        message = "to_trimesh needs the package trimesh: engine3d[formats]"
+        message = needed("to_trimesh needs", "trimesh", "formats")
         raise ImportError(message, name=error.name) from error
     if not len(mesh.faces):
         colors = None if mesh.colors is None else srgb_bytes(mesh.colors)[mesh.points]

@@ -45,8 +45,10 @@ def render(
     Parameters
     ----------
     scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-        An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio, Open3D,
-        CadQuery and build123d.
+        An array of shape (N, 3) holds points, (N, 6) points with colours, (N, 2, 3) segments,
+        (N, 3, 3) triangles, (H, W) heights, (X, Y, Z) of bool voxels; a pair of arrays holds
+        vertices and faces. Other libraries are trimesh, PyVista, meshio, Open3D,
+        CadQuery, build123d and vedo.
         A file gives the picture of ``engine3d render``, with the same bytes. A node is drawn with
         its subtree at its world pose, lit by the lights of that subtree.
     camera : None, Node or (Camera, pose)

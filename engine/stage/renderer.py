@@ -173,7 +173,7 @@ class Renderer(rendering.Renderer):
         Parameters
         ----------
         scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-            An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio, Open3D,
+            Arrays are as for `render`. Other libraries are trimesh, PyVista, meshio, Open3D,
             CadQuery and build123d.
         options, **keywords
             As for `render`.
@@ -207,10 +207,10 @@ class Renderer(rendering.Renderer):
         Parameters
         ----------
         scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
-            An (N, 3) array holds points. Other libraries are trimesh, PyVista, meshio, Open3D,
+            Arrays are as for `render`. Other libraries are trimesh, PyVista, meshio, Open3D,
             CadQuery and build123d.
-            A file is opened and seen as by ``engine3d render``; an array holds points. Of a node
-            its subtree is drawn, at its world pose.
+            A file is opened and seen as by ``engine3d render``. Of a node its subtree is drawn, at
+            its world pose.
         camera : None, Node or (Camera, pose)
             A node of this scene. None uses its first visible camera; without one, all of the thing
             shows. The cameras of files count only if they are loaded as scenes. The pose for a file

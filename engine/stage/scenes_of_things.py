@@ -7,16 +7,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from ..base.foreign_arrays import is_foreign_array
-from ..base.numbers import as_array
 from ..io.scenes.other_libraries import scene_of_library
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose, shown_object
+from .meshes_of_arrays import mesh_of_arrays
 
 #: The ambient light of new scenes, and of scenes from files.
 _USUAL_AMBIENT = ((0.1, 0.1, 0.1), (0.0, 0.0, 0.0))
@@ -27,22 +24,18 @@ def scene_of(thing: Any) -> Scene | None:
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, (N, 3) array, or another library's object
+    thing : Scene, Node, Mesh, InstancedMesh, array, or another library's object
         Libraries are trimesh, PyVista, meshio and Open3D; a list of their objects is taken, too. A
-        scene is returned unchanged. An array holds points. For a node, the new scene holds its
-        visible subtree at its world poses, in its current deformation.
+        scene is returned unchanged. Arrays are what `mesh_of_arrays` takes. For a node, the new
+        scene holds its visible subtree at its world poses, in its current deformation.
     """
     if isinstance(thing, Scene):
         return thing
     if (made := scene_of_library(thing)) is not None:
         return made
     scene = Scene()
-    if is_foreign_array(thing):
-        thing = as_array(thing, "the points")
-    if isinstance(thing, np.ndarray):
-        if thing.ndim != 2 or thing.shape[1] != 3 or thing.dtype.kind not in "fiu":
-            return None
-        thing = Mesh(thing, points=np.arange(len(thing)), name="points")
+    if (mesh := mesh_of_arrays(thing)) is not None:
+        thing = mesh
     if isinstance(thing, Mesh | InstancedMesh):
         scene.add(thing, name=getattr(thing, "name", "") or "mesh")
     elif isinstance(thing, Node):

@@ -120,6 +120,8 @@ def test_formats_and_health(agent):
 @pytest.mark.parametrize(
     ("tool", "arguments", "message"),
     [
+        ("rendr", {}, "there is no tool 'rendr': did you mean render?"),
+        ("qqq", {}, "there is no tool 'qqq'"),
         ("render", {"vieww": "iso"}, "render has no argument 'vieww': did you mean view?"),
         ("render", {"view": "isso"}, "did you mean iso?"),
         ("render", {"view": {"azimut": 3}}, "did you mean azimuth?"),

@@ -107,4 +107,4 @@ def test_a_missing_package_is_named(tmp_path):
         "except e3d.FileFormatError as error: print(error)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert "pip install engine3d[cad]" in done.stdout
+    assert "pip install 'engine3d[cad]'" in done.stdout

@@ -96,6 +96,22 @@ def test_wrong_joints_are_named(arm, options, told, capsys):
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("unit", ["deg", "°", "rad"])
+@pytest.mark.parametrize(
+    ("kind", "size", "lengths"), [("prismatic", 1, 1), ("planar", 3, 2), ("floating", 6, 3)]
+)
+def test_angles_move_nothing_along(kind, size, lengths, unit, tmp_path, capsys):
+    robot = tmp_path / "robot.urdf"
+    robot.write_text(ARM.replace("revolute", kind))
+    for place in range(size):
+        value = ["0"] * size
+        value[place] = f"1{unit}"
+        is_wrong = place < lengths
+        assert main(["info", str(robot), "--joint", f"elbow={','.join(value)}"]) == int(is_wrong)
+        told = capsys.readouterr().err
+        assert (f"joint 'elbow' is {kind}: it moves by metres, not by" in told) == is_wrong
+
+
 def test_limits_are_warned_of(arm, capsys):
     assert main(["info", arm, "--joint", "elbow=3"]) == 0
     drawn(arm, "--joint", "elbow=3")

@@ -103,3 +103,11 @@ def test_pyvista_finds_the_component_and_loads_no_opengl(tmp_path):
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout == "(30, 40, 3)\nFalse\n"
+
+
+def test_depth_peeling_asks_no_opengl(installed):
+    pl = plotter()
+    pl.add_mesh(pv.Sphere(), opacity=0.5)
+    assert pl.enable_depth_peeling()
+    assert pl.renderer.GetUseDepthPeeling()
+    assert pl.screenshot().shape == (SIZE[1], SIZE[0], 3)

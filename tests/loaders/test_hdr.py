@@ -169,5 +169,5 @@ def test_openexr():
 @needs_environments
 def test_openexr_without_the_package(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "OpenEXR", None)
-    with pytest.raises(e3d.FileAccessError, match=r"pip install engine3d\[exr\]"):
+    with pytest.raises(e3d.FileAccessError, match=r"pip install 'engine3d\[exr\]'"):
         e3d.Environment.load(FOLDER / "hdr.exr")

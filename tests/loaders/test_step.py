@@ -104,5 +104,5 @@ def test_without_cascadio(tmp_path):
     )
     run = subprocess.run([sys.executable, "-c", program, str(path)], capture_output=True, text=True)
     assert run.stdout == (
-        f"{path}: step files need the package cascadio: pip install engine3d[step]\n"
+        f"{path}: step files need the package cascadio: pip install 'engine3d[step]'\n"
     )

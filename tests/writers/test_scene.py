@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from loaders.robots import robot
 from loaders.seeds import FILES
 from plain_picture import Renderer
 
@@ -353,3 +354,11 @@ def test_what_moves_is_told_to_be_lost(folder):
         e3d.save_scene(scene, folder / "a.e3d.json")
     again = e3d.load_scene(folder / "a.e3d.json")
     assert len(again.nodes) == len(scene.nodes) and again.nodes[0].object.joints is None
+
+
+@pytest.mark.parametrize("name", ["a.e3d.json", "a.gltf", "a.glb"])
+def test_lost_joints_are_told(folder, name):
+    scene = e3d.load_scene(robot(1).text.encode())
+    with pytest.warns(e3d.Engine3DWarning, match=r"hold.* joints"):
+        e3d.save_scene(scene, folder / name)
+    assert not e3d.load_scene(folder / name).robots

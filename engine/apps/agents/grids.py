@@ -12,10 +12,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..._native.images import encode_png
 from ...base.numbers import shown as shown_value
 from ...errors import InvalidArgumentError
 from ...io.output.animation_saving import save_animation
@@ -23,7 +19,7 @@ from ...rendering.canvas import Canvas
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.theme import LIGHT
 from ..sheet.contact_sheet import Sheet, contact_sheet
-from .pictures import Picture, Request, Studio, check_pixel, visible_parts
+from .pictures import Drawn, Picture, Request, Studio, check_pixel, visible_parts
 from .things import Things
 from .view_cameras import rounded
 
@@ -34,24 +30,16 @@ _FPS = 12.0
 
 
 @dataclass(frozen=True)
-class GridPicture:
-    """A picture of several views; a sheet, if there is one, knows its pixels.
+class GridPicture(Drawn):
+    """A picture of several views; its record has ``size`` and ``cells``.
 
     Attributes
     ----------
-    pixels : (H, W, 4) ndarray of uint8
-    record : dict
-        ``size``, ``cells``.
     sheet : Sheet or None
+        Which knows the pixels of its views.
     """
 
-    pixels: NDArray[np.uint8]
-    record: dict[str, Any]
     sheet: Sheet | None = None
-
-    def encode(self) -> bytes:
-        """Return the bytes of a PNG file."""
-        return encode_png(self.pixels)
 
     def at(self, x: int, y: int) -> dict[str, Any]:
         """Return what a pixel shows, as `Picture.at` does.

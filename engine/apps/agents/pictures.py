@@ -67,27 +67,37 @@ class Request:
 
 
 @dataclass(frozen=True)
-class Picture:
-    """A drawn picture.
+class Drawn:
+    """What was drawn.
 
     Attributes
     ----------
     pixels : (H, W, 4) ndarray of uint8
     record : dict
-        ``camera``, ``visible``, ``blank`` and others.
+        What agents are told of it.
+    """
+
+    pixels: NDArray[np.uint8]
+    record: dict[str, Any]
+
+    def encode(self) -> bytes:
+        """Return the bytes of a PNG file."""
+        return encode_png(self.pixels)
+
+
+@dataclass(frozen=True)
+class Picture(Drawn):
+    """A picture of one view; its record has ``camera``, ``visible``, ``blank`` and others.
+
+    Attributes
+    ----------
     shown : Shown
     frame : Frame
         With IDs and depths, for questions about pixels.
     """
 
-    pixels: NDArray[np.uint8]
-    record: dict[str, Any]
     shown: Shown
     frame: Frame
-
-    def encode(self) -> bytes:
-        """Return the bytes of a PNG file."""
-        return encode_png(self.pixels)
 
     def at(self, x: int, y: int) -> dict[str, Any]:
         """Return what a pixel shows: the object, the triangle, where it is.

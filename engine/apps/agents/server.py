@@ -57,9 +57,19 @@ class AgentTool(PublishedTool):
         return result
 
 
-def server_for(session: Session) -> MCPServer[Any]:
+class Server(MCPServer[Any]):
+    """A server that suggests the nearest of its tools where one is unknown."""
+
+    async def call_tool(self, name: str, arguments: dict[str, Any], context: Any = None) -> Any:
+        known = [tool.name for tool in await self.list_tools()]
+        if name not in known:
+            return _failed(f"there is no tool {shown(name)}{meant(name, known)}")
+        return await super().call_tool(name, arguments, context)
+
+
+def server_for(session: Session) -> Server:
     """Return the server of a session, with all its tools and resources."""
-    server: MCPServer[Any] = MCPServer(
+    server = Server(
         "engine3d",
         title="engine3d",
         version=__version__,

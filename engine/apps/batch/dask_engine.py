@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from ...base.optional_packages import needed
 from ...errors import InvalidArgumentError
 
 _PATIENCE = 10.0  # seconds, for a scheduler to answer
@@ -43,7 +44,7 @@ def connected(address: str) -> Iterator[tuple[DaskExecutor, int]]:
     try:
         from distributed import Client
     except ImportError:
-        message = "a scheduler needs the package distributed: pip install 'engine3d[dask]'"
+        message = needed("a scheduler needs", "distributed", "dask")
         raise InvalidArgumentError(message) from None
     try:
         client = Client(address, timeout=_PATIENCE, set_as_default=False)

@@ -185,12 +185,16 @@ def joint(text: str) -> tuple[str, float | tuple[float, ...]]:
 
 
 def _angle(text: str) -> float:
+    from ...base.angles import Angle
+
     unit = next((unit for unit in ("deg", "°", "rad") if text.endswith(unit)), "")
     try:
         value = number(text.removesuffix(unit))
     except argparse.ArgumentTypeError:  # tell of the whole word: 1grad ends with rad, too
         raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
-    return value if unit in ("", "rad") else math.radians(value)
+    if not unit:
+        return value
+    return Angle(value if unit == "rad" else math.radians(value))
 
 
 def names(text: str) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...base.optional_packages import needed
 from ...errors import InvalidArgumentError
 
 
@@ -19,9 +20,7 @@ def mean_flip(actual: np.ndarray, expected: np.ndarray) -> float:
     try:
         import flip_evaluator
     except ImportError:
-        raise InvalidArgumentError(
-            "FLIP needs flip-evaluator: pip install 'engine3d[flip]'"
-        ) from None
+        raise InvalidArgumentError(needed("FLIP needs", "flip-evaluator", "flip")) from None
     pair = (_over_white(expected), _over_white(actual))
     return float(flip_evaluator.evaluate(*pair, "LDR", applyMagma=False)[1])
 

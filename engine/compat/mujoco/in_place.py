@@ -7,6 +7,7 @@ import sys
 from types import ModuleType
 from typing import Any
 
+from ...base.optional_packages import require
 from . import functions
 from .context import GLContext, MjrContext
 from .mujoco_renderer import Renderer
@@ -43,6 +44,7 @@ def install() -> None:
     Metaworld, LeRobot. Call it before they are imported. Neither OpenGL nor GLFW is imported then;
     the environment variable ``MUJOCO_GL`` becomes ``egl`` unless it names a platform already.
     """
+    require("mujoco", "engine3d.compat.mujoco")
     if os.environ.get(_VARIABLE, "").lower() not in _PLATFORMS:
         os.environ[_VARIABLE] = "egl"
     if "mujoco" not in sys.modules:

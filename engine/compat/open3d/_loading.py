@@ -6,6 +6,7 @@ import sys
 from importlib.util import find_spec
 from types import ModuleType
 
+from ...base.optional_packages import require
 from ._stand_ins import provide_missing
 
 
@@ -19,14 +20,10 @@ def load() -> ModuleType:
     ImportError
         A library is missing that Open3D calls.
     """
+    require("open3d", "engine3d.compat.open3d", "open3d")
     if "open3d" not in sys.modules:
         spec = find_spec("open3d")
-        if spec is None:
-            raise ModuleNotFoundError(
-                "engine3d.compat.open3d needs open3d: pip install 'engine3d[open3d]'",
-                name="open3d",
-            )
-        for folder in spec.submodule_search_locations or ():
+        for folder in (spec and spec.submodule_search_locations) or ():
             provide_missing(folder)
     import open3d
 

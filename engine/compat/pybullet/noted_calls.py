@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...base import linalg
+from ...base.optional_packages import require
 from ...errors import Engine3DError, warn
 from ._files import found_file, plain_mesh, read_texture
 from ._world import World
@@ -54,6 +55,7 @@ def install() -> None:
     Call it before textures are loaded and shapes are made: PyBullet does not tell of them later.
     Another call changes nothing.
     """
+    require("pybullet", "engine3d.compat.pybullet", "pybullet")
     import pybullet
 
     if isinstance(inspect.getattr_static(pybullet, "getCameraImage"), _Replaced):

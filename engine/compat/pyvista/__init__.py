@@ -5,10 +5,14 @@ PyVista finds this module by the entry points of its groups ``pyvista.plotter_co
 that programs run unchanged. docs/pyvista.md tells what is drawn. Needs the extra ``pyvista``.
 """
 
-from ._windows import prefer_no_opengl
-from .accessor import DatasetAccessor
-from .component import PlotterComponent
-from .plotter_hooks import install, uninstall
+from ...base.optional_packages import require
+
+require("pyvista", __name__, "pyvista")
+
+from ._windows import prefer_no_opengl  # noqa: E402
+from .accessor import DatasetAccessor  # noqa: E402
+from .component import PlotterComponent  # noqa: E402
+from .plotter_hooks import install, uninstall  # noqa: E402
 
 __all__ = ["DatasetAccessor", "PlotterComponent", "install", "uninstall"]
 

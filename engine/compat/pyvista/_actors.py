@@ -17,6 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from ...errors import warn
 from ._block_surfaces import surfaces_of
 from ._line_marks import strokes
+from ._material_maps import maps_of, uvs_of
 from ._parts import MANY, Paint, Part
 from ._point_marks import dots
 from ._properties import Property, property_of
@@ -39,6 +40,8 @@ def parts_of(actor: Any, view: View, matrix: NDArray[np.float64] | None = None) 
     mapper = actor.GetMapper()
     if mapper is None:
         return
+    if mapper.IsA("vtkPointGaussianMapper"):
+        warn("engine3d draws splats (points_gaussian) as points of one size")
     look = property_of(actor.GetProperty())
     whole = product(view.view, matrix_of(actor.GetMatrix()) if matrix is None else matrix)
     back = actor.GetBackfaceProperty()
@@ -81,6 +84,7 @@ class _Shown:
         self._places = transformed(matrix, points)
         self._paint, self._is_of_cells = paint_of(mapper, data)
         self._normals = self._normals_of(data, matrix)
+        self._maps = maps_of(actor.GetProperty(), data) if look.is_physical else None
         self._wear(actor, data)
 
     def _normals_of(self, data: Any, matrix: NDArray[np.float64]) -> NDArray[np.float64] | None:
@@ -101,7 +105,7 @@ class _Shown:
         image = texture_of(texture)
         if image is None or coordinates is None:
             return
-        uvs = vtk_to_numpy(coordinates)[:, :2].astype(np.float32)
+        uvs = uvs_of(coordinates)
         if (transform := texture.GetTransform()) is not None:
             m = matrix_of(transform.GetMatrix())
             uvs = (uvs @ m[:2, :2].T + m[:2, 3]).astype(np.float32)
@@ -131,6 +135,7 @@ class _Shown:
             return
         paint = Paint() if self._is_of_cells else self._paint
         part = Part(self._places, faces, self._look, self._normals, paint, edges, is_face=True)
+        part.maps = self._maps
         if self._is_of_cells and self._paint.rgba is not None:
             part.face_rgba = self._paint.rgba[cells]
             if len(faces) <= MANY or self._paint.is_clear:

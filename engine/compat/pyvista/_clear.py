@@ -8,13 +8,16 @@ in order; with alphas close to 0 the order does not matter, and blending is addi
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...model.materials.linear_colors import linear
+from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.scene.cameras import Camera
+from ...model.scene.instances import InstancedMesh
 from ...model.scene.scene import Scene
 from ...rendering.renderer import Renderer
 from ._edges import polygon_edges
@@ -74,7 +77,7 @@ def _with_edges(part: Part, view: View) -> list[Part]:
 
 
 class _Passes:
-    """Draws clear parts behind black ones, in several ways."""
+    """Draws clear parts behind black ones, in several ways, as one scene whose colours change."""
 
     def __init__(
         self,
@@ -83,9 +86,18 @@ class _Passes:
         lamps: list[Lamp],
         view: View,
     ) -> None:
-        self._solid, self._clear, self._lamps = solid, clear, lamps
         self._renderer = Renderer((view.width, view.height), color_space="linear")
         self._camera = Camera(view.projection), np.eye(4)
+        self._scene = Scene(background=(0, 0, 0), ambient=(0, 0, 0))
+        add_lights(self._scene, lamps)
+        for part in solid:
+            black = replace(part, paint=Paint(), spot_colors=None)
+            material = black.material(0.0)
+            material.unlit = True
+            black.added(self._scene, material)
+        self._clear = [(part, part.added(self._scene, part.material())) for part in clear]
+        for _, node in self._clear:
+            node.cast_shadows = False
 
     def radiance(self, is_white: bool = False, is_faint: bool = False) -> NDArray[np.float32]:
         """Return the sum of the clear parts' colours.
@@ -97,40 +109,37 @@ class _Passes:
         is_faint : bool
             With alphas close to 0.
         """
-        scene = Scene(background=(0, 0, 0), ambient=(0, 0, 0))
-        add_lights(scene, self._lamps)
-        for part in self._solid:
-            black = replace(part, paint=Paint(), spot_colors=None)
-            material = black.material(0.0)
-            material.unlit = True
-            black.added(scene, material)
-        for part in self._clear:
-            self._add(scene, part, is_white, is_faint)
-        frame = self._renderer.render(scene, self._camera, outputs=("radiance",), cull="none")
+        for part, node in self._clear:
+            shown = part
+            if is_white:
+                shown = replace(part, paint=_white(part.paint), spot_colors=None)
+            mesh: Any = node.object
+            if isinstance(mesh, InstancedMesh):
+                mesh.colors = shown.spot_colors
+                mesh = mesh.mesh
+            if part.paint.rgba is not None:
+                mesh.colors = shown.paint.rgba
+            mesh.materials = [_material(part, shown.paint, is_white, is_faint)]
+        frame = self._renderer.render(self._scene, self._camera, outputs=("radiance",), cull="none")
         return frame.radiance
 
-    def _add(
-        self,
-        scene: Scene,
-        part: Part,
-        is_white: bool,
-        is_faint: bool,
-    ) -> None:
-        look = part.look
-        factor = look.ambient + look.diffuse if look.is_unlit else look.diffuse
-        opacity = look.opacity * (_FAINT if is_faint else 1.0)
-        material = part.material(1.0 if is_white else factor, opacity)
-        if is_white:
-            material.unlit = True
-            material.color = linear([1.0, 1.0, 1.0, opacity])
-            part = replace(part, paint=_white(part.paint), spot_colors=None)
-            material.texture = part.paint.image
-        elif look.specular and not look.is_unlit:
-            material.specular = linear(look.specular_color * look.specular)
-            material.shininess = _BLINN * look.power
-        if not is_white and look.ambient and not look.is_unlit:
-            material.emissive = linear(np.clip(look.ambient * look.ambient_color, 0.0, 1.0))
-        part.added(scene, material)
+
+def _material(part: Part, paint: Paint, is_white: bool, is_faint: bool) -> Material:
+    look = part.look
+    factor = look.ambient + look.diffuse if look.is_unlit else look.diffuse
+    opacity = look.opacity * (_FAINT if is_faint else 1.0)
+    material = part.material(1.0 if is_white else factor, opacity)
+    material.texture = paint.image
+    if is_white:
+        material.unlit = True
+        material.color = linear([1.0, 1.0, 1.0, opacity])
+        return material
+    if look.specular and not look.is_unlit:
+        material.specular = linear(look.specular_color * look.specular)
+        material.shininess = _BLINN * look.power
+    if look.ambient and not look.is_unlit:
+        material.emissive = linear(np.clip(look.ambient * look.ambient_color, 0.0, 1.0))
+    return material
 
 
 def _white(paint: Paint) -> Paint:

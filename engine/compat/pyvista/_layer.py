@@ -6,12 +6,14 @@ camera that is moved by a part of a pixel: what the core does not know of VTK's 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model.materials.colors import linear_from_display
+from ...model.materials.textures import Texture
 from ...model.scene.cameras import Camera
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
@@ -20,21 +22,30 @@ from ...rendering.renderer import Renderer
 from ._clear import mixture
 from ._edges import edge_shares
 from ._facets import facet_normals
-from ._finish import shade
+from ._finish import Surface, shade
 from ._lights import Lamp, add_lights
-from ._parts import MANY, Part
+from ._parts import MANY, Paint, Part
 from ._point_marks import spread_points
 from ._properties import PLAIN, Property
 from ._renderer_view import View, product
 from ._samples import Samples
+from ._surroundings import Surroundings
 
 _OF_LIGHT = {"object_id", "albedo", "world_normal", "world_position"}
 _OF_FACETS = {"object_id", "face_id", "albedo", "world_position"}
 _OF_EDGES = {"object_id", "face_id"}
+_AT_ORIGIN = np.eye(4)
+#: Those of `Maps`.
+_MAPS = ("material", "emissive")
 
 
 def draw_layer(
-    samples: Samples, parts: list[Part], lamps: list[Lamp], view: View, peels: bool
+    samples: Samples,
+    parts: list[Part],
+    lamps: list[Lamp],
+    view: View,
+    peels: bool,
+    surroundings: Surroundings | None = None,
 ) -> None:
     """Draw parts over samples.
 
@@ -50,7 +61,7 @@ def draw_layer(
     solid, points = _with_one_size([part for part in shown if not part.is_clear], view)
     clear = [_spread(part, view) for part in shown if part.is_clear]
     if solid:
-        _Solid(solid, lamps, view, points).draw(samples)
+        _Solid(solid, lamps, view, points, surroundings).draw(samples)
     if clear:
         samples.blend(*mixture(solid, clear, lamps, view, peels))
 
@@ -121,13 +132,44 @@ class _Unfinished:
     is_faceted: bool
 
 
+class _Light(NamedTuple):
+    """What is known of the light of a picture before its pixels are shaded.
+
+    Attributes
+    ----------
+    maps : dict of str to (H, W, 3) float32
+        What the maps of materials say.
+    shadows : list of (H, W) bool or None
+        For each lamp whether it arrives; None where nothing throws shadows in it.
+    reflected : (H, W, 3) float32 or None
+        What physical materials reflect of an environment.
+    """
+
+    maps: dict[str, NDArray[np.float32]]
+    shadows: list[NDArray[np.bool_] | None]
+    reflected: NDArray[np.float32] | None
+
+
 class _Solid:
     """Parts that hide what is behind them."""
 
-    def __init__(self, parts: list[Part], lamps: list[Lamp], view: View, points: Property) -> None:
+    def __init__(
+        self,
+        parts: list[Part],
+        lamps: list[Lamp],
+        view: View,
+        points: Property,
+        surroundings: Surroundings | None,
+    ) -> None:
         self._lamps, self._view, self._points = lamps, view, points
+        self._around = surroundings
+        self._reflecting = None
+        if surroundings is not None and any(part.look.is_physical for part in parts):
+            self._reflecting = surroundings.scene(parts)
         self._scene = Scene(background=None, ambient=(0, 0, 0))
         self._unfinished: dict[int, _Unfinished] = {}
+        self._maps = {name: scene for name in _MAPS if (scene := _map_scene(parts, name))}
+        self._shadows = [_shadow_scene(parts, lamp) if lamp.casts else None for lamp in lamps]
         self._outputs = {"color"}
         add_lights(self._scene, lamps)
         is_plain = all(lamp.is_plain for lamp in lamps)
@@ -155,21 +197,48 @@ class _Solid:
         """Draw the parts over samples."""
         renderer = Renderer((self._view.width, self._view.height), color_space="linear")
         for number, (x, y) in enumerate(samples.pattern):
-            frame = self._render(renderer, _moved(self._view, 0.5 - x, 0.5 - y))
+            camera = Camera(_moved(self._view, 0.5 - x, 0.5 - y))
+            frame = self._render(renderer, self._scene, camera, self._outputs)
             if self._unfinished:
-                self._finish(frame)
+                self._finish(frame, self._light(renderer, camera))
             samples.put(number, frame.color)
 
-    def _render(self, renderer: Renderer, projection: NDArray[np.float64]) -> Frame:
+    def _light(self, renderer: Renderer, camera: Camera) -> _Light:
+        """Return what the core tells of the light of all pixels."""
+        maps = {
+            name: self._render(renderer, scene, camera, {"albedo"}).albedo
+            for name, scene in self._maps.items()
+        }
+        shadows = [
+            None
+            if scene is None
+            else self._render(renderer, scene, camera, {"radiance"}).radiance[..., 0] > 0.0
+            for scene in self._shadows
+        ]
+        reflected = None
+        if self._around is not None and self._reflecting is not None:
+            pose = self._around.turn
+            frame = self._render(renderer, self._reflecting, camera, {"radiance"}, pose)
+            reflected = frame.radiance
+        return _Light(maps, shadows, reflected)
+
+    def _render(
+        self,
+        renderer: Renderer,
+        scene: Scene,
+        camera: Camera,
+        outputs: set[str],
+        pose: NDArray[np.float64] = _AT_ORIGIN,
+    ) -> Frame:
         return renderer.render(
-            self._scene,
-            (Camera(projection), np.eye(4)),
-            outputs=tuple(sorted(self._outputs)),
+            scene,
+            (camera, pose),
+            outputs=tuple(sorted(outputs)),
             cull="none",
             **_point_options(self._points),
         )
 
-    def _finish(self, frame: Frame) -> None:
+    def _finish(self, frame: Frame, light: _Light) -> None:
         """Change the pixels of parts whose light or edges the core does not know."""
         color, ids = frame.color.reshape(-1, 4), frame.object_id.reshape(-1)
         for number, one in self._unfinished.items():
@@ -179,7 +248,7 @@ class _Solid:
             if one.is_lit:
                 found = color[rows, :3].astype(np.float64)
             else:
-                found = 255.0 * self._shaded(frame, rows, one)
+                found = 255.0 * self._shaded(frame, rows, one, light)
             if one.part.look.edge_width:
                 found = self._edged(frame, rows, one.part, found)
             color[rows, :3] = np.clip(found + 0.5, 0.0, 255.0).astype(np.uint8)
@@ -194,7 +263,7 @@ class _Solid:
         return colors * (1.0 - share) + 255.0 * part.look.edge_color * share
 
     def _shaded(
-        self, frame: Frame, rows: NDArray[np.intp], one: _Unfinished
+        self, frame: Frame, rows: NDArray[np.intp], one: _Unfinished, light: _Light
     ) -> NDArray[np.float64]:
         part, places = one.part, _values(frame.world_position, rows)
         if part.face_rgba is None:
@@ -208,11 +277,54 @@ class _Solid:
             normals = _values(frame.world_normal, rows)
         is_own = part.has_colors or not part.paint.is_plain
         ambient = albedo if is_own else np.broadcast_to(part.look.ambient_color, albedo.shape)
-        return shade(part.look, albedo, ambient, normals, places, self._lamps)
+        if part.look.is_physical and part.paint.image is not None:
+            factor = 1.0 if part.has_colors else np.maximum(part.look.color, 1e-6)
+            albedo = factor * _decoded(albedo / factor, part.paint.image)
+        told = {
+            name: _decoded(_values(values, rows), picture)
+            for name, values in light.maps.items()
+            if (picture := getattr(part.maps, name, None)) is not None
+        }
+        shadows = [
+            None if shown is None else shown.reshape(-1)[rows].astype(np.float64)
+            for shown in light.shadows
+        ]
+        around = None if light.reflected is None else _values(light.reflected, rows)
+        surface = Surface(albedo, ambient, normals, places, shadows, around, **told)
+        return shade(part.look, surface, self._lamps)
+
+
+def _map_scene(parts: list[Part], name: str) -> Scene | None:
+    """Return a scene whose colours are those of a map of all parts; None where none has it."""
+    pictures = [None if part.maps is None else getattr(part.maps, name) for part in parts]
+    if not any(pictures):
+        return None
+    scene = Scene(background=None)
+    for part, picture in zip(parts, pictures, strict=True):
+        shown = part if picture is None else part.showing(picture)
+        shown.added(scene, shown.material())
+    return scene
+
+
+def _shadow_scene(parts: list[Part], lamp: Lamp) -> Scene:
+    """Return a scene of white surfaces which is black where a lamp does not arrive."""
+    scene = Scene(background=None, ambient=(0, 0, 0))
+    add_lights(scene, [lamp._replace(color=np.ones(3))])
+    for part in parts:
+        white = replace(part, paint=Paint(), spot_colors=None, face_rgba=None)
+        material = white.material()
+        material.color, material.unlit = (1.0, 1.0, 1.0), False
+        white.added(scene, material)
+    return scene
 
 
 def _values(array: NDArray[np.float32], rows: NDArray[np.intp]) -> NDArray[np.float64]:
     return array.reshape(-1, 3)[rows].astype(np.float64)
+
+
+def _decoded(values: NDArray[np.float64], picture: Texture) -> NDArray[np.float64]:
+    """Return the light that the colours of a picture stand for."""
+    return linear_from_display(values) if picture.color_space == "srgb" else values
 
 
 def _moved(view: View, right: float, down: float) -> NDArray[np.float64]:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...choices import LightShadow
 from ...model.materials.linear_colors import linear
 from ...model.scene.lights import DirectionalLight, PointLight
 from ...model.scene.scene import Scene
@@ -37,6 +38,8 @@ class Lamp(NamedTuple):
         Degrees from the axis to the edge of the light; 90 and more shine everywhere.
     exponent : float
         The power of the cosine from the axis by which a cone fades.
+    casts : bool
+        Whether surfaces that are not clear throw shadows in it.
     """
 
     direction: NDArray[np.float64]
@@ -45,6 +48,7 @@ class Lamp(NamedTuple):
     fading: tuple[float, float, float]
     cone: float
     exponent: float
+    casts: bool = False
 
     @property
     def is_plain(self) -> bool:
@@ -57,27 +61,32 @@ def lamps_of(renderer: Any, view: View) -> list[Lamp]:
     renderer.UpdateLightsGeometryToFollowCamera()
     lights = renderer.GetLights()
     lights.InitTraversal()
+    passes = getattr(renderer, "_render_passes", None)  # PyVista's
+    has_shadows = getattr(passes, "_shadow_map_pass", None) is not None
     found = []
     for _ in range(lights.GetNumberOfItems()):
         light = lights.GetNextItem()
         if light.GetSwitch():
-            found.append(_lamp(light, view))
+            found.append(_lamp(light, view, has_shadows))
     return found
 
 
-def _lamp(light: Any, view: View) -> Lamp:
+def _lamp(light: Any, view: View, has_shadows: bool) -> Lamp:
     ends = np.array([light.GetTransformedPosition(), light.GetTransformedFocalPoint()])
     position, target = transformed(view.view, ends)
     along = target - position
     length = math.sqrt((along * along).sum())
     has_place = bool(light.GetPositional())
+    cone = light.GetConeAngle() if has_place else 180.0
     return Lamp(
         direction=along / length if length else np.array([0.0, 0.0, -1.0]),
         position=position if has_place else None,
         color=np.array(light.GetDiffuseColor()) * light.GetIntensity(),
         fading=tuple(light.GetAttenuationValues()) if has_place else (1.0, 0.0, 0.0),
-        cone=light.GetConeAngle() if has_place else 180.0,
+        cone=cone,
         exponent=light.GetExponent(),
+        # As vtkShadowMapBakerPass chooses them.
+        casts=has_shadows and not light.LightTypeIsHeadlight() and not (has_place and cone >= 90.0),
     )
 
 
@@ -85,8 +94,9 @@ def add_lights(scene: Scene, lamps: list[Lamp]) -> None:
     """Put lights into a scene; those that engine3d has not alike shine as points."""
     for lamp in lamps:
         color = linear(np.clip(lamp.color, 0.0, None))
+        shadow: LightShadow = "exact" if lamp.casts else "none"
         if lamp.position is None:
-            scene.add(DirectionalLight(lamp.direction, color, math.pi))
+            scene.add(DirectionalLight(lamp.direction, color, math.pi, shadow=shadow))
         else:
-            point = PointLight(color, math.pi, _FAR, "window")
+            point = PointLight(color, math.pi, _FAR, "window", shadow=shadow)
             scene.add(point, translation=lamp.position)

@@ -71,6 +71,25 @@ class Paint:
 
 
 @dataclass
+class Maps:
+    """What pictures say of a physical material.
+
+    Attributes
+    ----------
+    uvs : (V, 2) float32
+        From the pictures' left bottom.
+    material : Texture or None
+        Occlusion, roughness and metal, which multiply the look's.
+    emissive : Texture or None
+        Light of its own.
+    """
+
+    uvs: NDArray[np.float32]
+    material: Texture | None
+    emissive: Texture | None
+
+
+@dataclass
 class Part:
     """Triangles with one look.
 
@@ -91,6 +110,7 @@ class Part:
     spots : (N, 4) float64 or None
         Where the part stands, many times: offsets and sizes.
     spot_colors : (N, 4) uint8 or None
+    maps : Maps or None
     is_points : bool
         Whether the places are points, which the core draws as squares or discs.
     is_face : bool
@@ -106,6 +126,7 @@ class Part:
     face_rgba: NDArray[np.uint8] | None = None
     spots: NDArray[np.float64] | None = None
     spot_colors: NDArray[np.uint8] | None = None
+    maps: Maps | None = None
     is_points: bool = False
     is_face: bool = False
 
@@ -144,7 +165,14 @@ class Part:
             normals=None if self.normals is None else self.normals[corners],
             paint=Paint(rgba, is_clear=bool((self.face_rgba[:, 3] != 255).any())),
             face_rgba=None,
+            maps=self.maps and replace(self.maps, uvs=self.maps.uvs[corners]),
         )
+
+    def showing(self, picture: Texture) -> Part:
+        """Return the same with a picture as its only colours, at the coordinates of its maps."""
+        assert self.maps is not None
+        paint = Paint(uvs=self.maps.uvs, image=picture)
+        return replace(self, paint=paint, face_rgba=None, maps=None)
 
     def added(self, scene: Scene, material: Material) -> Node:
         """Put the part into a scene."""
@@ -154,12 +182,18 @@ class Part:
             points=np.arange(len(self.places), dtype=np.int32) if self.is_points else None,
             normals=None if self.normals is None else _unit(self.normals),
             colors=self.paint.rgba,
-            uvs=self.paint.uvs,
+            uvs=self._uvs,
             materials=[material],
         )
         if self.spots is None:
             return scene.add(mesh)
         return scene.add(InstancedMesh(mesh, self.spots, colors=self.spot_colors))
+
+    @property
+    def _uvs(self) -> NDArray[np.float32] | None:
+        if self.paint.uvs is not None or self.maps is None:
+            return self.paint.uvs
+        return self.maps.uvs
 
     def material(self, factor: float = 1.0, opacity: float | None = None) -> Material:
         """Return the material; ``factor`` multiplies its colour."""

@@ -10,15 +10,18 @@ from typing import Any
 import numpy as np
 
 from ...base.linalg import inverse
-from ...errors import InvalidArgumentError
+from ...errors import InvalidArgumentError, warn
+from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.scene.cameras import Camera
 from ...model.scene.scene import Scene
 from ._lights import add_lights, lamps_of
+from ._material_maps import make_physical
 from ._parts import Part
 from ._props import content_of
 from ._renderer_view import view_of
+from ._surroundings import surroundings_of
 
 
 def scene_of(renderer: Any) -> Scene:
@@ -40,6 +43,11 @@ def scene_of(renderer: Any) -> Scene:
     for part in parts:
         node = part.added(scene, _material(part))
         node.pose = inverse(view.view)
+    around = surroundings_of(renderer, view)
+    if around is not None and around.is_upright:
+        scene.environment = around.environment
+    elif around is not None:
+        warn("the scene is without its environment texture, which is turned")
     lights = len(list(scene.nodes))
     add_lights(scene, lamps_of(renderer, view))
     for light in list(scene.nodes)[lights:]:
@@ -56,7 +64,13 @@ def _material(part: Part) -> Material:
     if image is not None:
         material.texture = Texture(image.pixels, filter=image.filter, wrap=image.wrap)
     if look.is_physical:
-        material.metallic, material.roughness = look.metallic, look.roughness
+        make_physical(material, part)
+        if part.maps is not None:
+            material.occlusion_texture = part.maps.material
+            material.occlusion_strength = look.occlusion
+            if part.maps.emissive is not None:
+                material.emissive_texture = part.maps.emissive
+                material.emissive = linear(look.emissive)
     elif look.specular:
         material.specular = tuple(
             float(v) for v in np.clip(look.specular * look.specular_color, 0, 1)

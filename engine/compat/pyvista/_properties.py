@@ -17,6 +17,23 @@ _FLAT = 0  # VTK_FLAT
 
 
 @dataclass(frozen=True)
+class Coat:
+    """A clear coat over a physical material.
+
+    Attributes
+    ----------
+    strength, roughness, reflectance : float
+        0 to 1; the reflectance is that of light across the surface.
+    color : (3,) float64
+    """
+
+    strength: float
+    roughness: float
+    reflectance: float
+    color: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
 class Property:
     """A ``vtkProperty``; colours are those that the screen shows, 0 to 1.
 
@@ -25,7 +42,11 @@ class Property:
     color, ambient_color, specular_color, edge_color : (3,) float64
     opacity, ambient, diffuse, specular, power : float
     is_unlit, is_physical, is_flat : bool
-    metallic, roughness, base_ior, occlusion : float
+    metallic, roughness, base_reflectance, occlusion : float
+        Of a physical material; ``occlusion`` is how much of its map counts.
+    edge_tint, emissive : (3,) float64
+        The reflectance of metal along the surface; what multiplies the map of its own light.
+    coat : Coat or None
     edge_width : float
         Pixels; 0 for faces without edges.
     edge_opacity : float
@@ -54,6 +75,10 @@ class Property:
     metallic: float
     roughness: float
     base_reflectance: float
+    occlusion: float
+    edge_tint: NDArray[np.float64]
+    emissive: NDArray[np.float64]
+    coat: Coat | None
     edge_width: float
     edge_opacity: float
     line_width: float
@@ -78,7 +103,6 @@ def property_of(given: Any, is_unlit: bool = False) -> Property:
     if has_edges and not given.GetUseLineWidthForEdgeThickness():
         width = given.GetEdgeWidth()
     is_round = given.GetPoint2DShape() == 0 if hasattr(given, "GetPoint2DShape") else False
-    ior = given.GetBaseIOR()
     return Property(
         color=np.array(given.GetDiffuseColor()),
         ambient_color=np.array(given.GetAmbientColor()),
@@ -94,7 +118,11 @@ def property_of(given: Any, is_unlit: bool = False) -> Property:
         is_flat=given.GetInterpolation() == _FLAT,
         metallic=given.GetMetallic(),
         roughness=given.GetRoughness(),
-        base_reflectance=((ior - 1.0) / (ior + 1.0)) ** 2,
+        base_reflectance=_reflectance(given.GetBaseIOR()),
+        occlusion=given.GetOcclusionStrength(),
+        edge_tint=np.array(given.GetEdgeTint()),
+        emissive=np.array(given.GetEmissiveFactor()),
+        coat=_coat_of(given) if given.GetCoatStrength() > 0.0 else None,
         edge_width=width if has_edges else 0.0,
         edge_opacity=given.GetEdgeOpacity(),
         line_width=given.GetLineWidth(),
@@ -106,6 +134,20 @@ def property_of(given: Any, is_unlit: bool = False) -> Property:
         hides_back=bool(given.GetBackfaceCulling()),
         hides_front=bool(given.GetFrontfaceCulling()),
     )
+
+
+def _coat_of(given: Any) -> Coat:
+    return Coat(
+        given.GetCoatStrength(),
+        given.GetCoatRoughness(),
+        _reflectance(given.GetCoatIOR()),
+        np.array(given.GetCoatColor()),
+    )
+
+
+def _reflectance(ior: float) -> float:
+    """Return how much light a surface reflects that arrives across it."""
+    return ((ior - 1.0) / (ior + 1.0)) ** 2
 
 
 #: White, and nothing else.

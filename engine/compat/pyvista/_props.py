@@ -160,8 +160,6 @@ def _effects(renderer: Any) -> list[str]:
         names.append("the removal of hidden lines")
     if renderer.GetUseShadows():
         names.append("shadows")
-    if renderer.GetUseImageBasedLighting() and renderer.GetEnvironmentTexture() is not None:
-        names.append("light of an environment texture")
     window = renderer.GetRenderWindow()
     if window is not None and window.GetStereoRender():
         names.append("stereo")

@@ -75,7 +75,8 @@ def texture_of(texture: Any) -> Texture | None:
     if texture.GetInterpolate():
         filtering = "trilinear" if texture.GetMipmap() else "bilinear"
     wrap = "repeat" if texture.GetRepeat() else "clamp"
-    return Texture(texels[::-1], color_space="linear", filter=filtering, wrap=wrap)
+    space = "srgb" if texture.GetUseSRGBColorSpace() else "linear"
+    return Texture(texels[::-1], color_space=space, filter=filtering, wrap=wrap)
 
 
 def four_channels(values: NDArray[Any]) -> NDArray[np.uint8]:

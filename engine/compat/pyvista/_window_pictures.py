@@ -17,6 +17,7 @@ from ._lights import lamps_of
 from ._props import Content, content_of, draw_content, passes_of
 from ._renderer_view import View, view_of
 from ._samples import Samples
+from ._surroundings import surroundings_of
 from .annotations.overlay import Overlay
 
 _SAMPLES = 4  # of a pixel, whatever kind of antialiasing is asked for
@@ -108,7 +109,12 @@ def _draw(
         part.fill(_background(renderer, view), renderer.GetBackgroundAlpha())
     content = content_of(renderer, view)
     draw_layer(
-        part, content.parts, lamps_of(renderer, view), view, bool(renderer.GetUseDepthPeeling())
+        part,
+        content.parts,
+        lamps_of(renderer, view),
+        view,
+        bool(renderer.GetUseDepthPeeling()),
+        surroundings_of(renderer, view),
     )
     found = None
     if depth is not None or content.labels:

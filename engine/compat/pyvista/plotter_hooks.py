@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from pyvista import _vtk
-from pyvista.plotting import plotter, render_window_interactor
+from pyvista.plotting import plotter, render_window_interactor, renderer
 
 from ...errors import DisplayError, warn
 from . import _windows
@@ -35,6 +35,7 @@ def install() -> None:
     interactor = render_window_interactor.RenderWindowInteractor
     _replace(_vtk, "vtkRenderWindow", _windows.new_window)
     _replace(plotter, "_warn_xserver", lambda: None)
+    _replace(renderer, "check_depth_peeling", lambda *limits: True)  # asks OpenGL
     _replace(plotter, "image_from_window", _image_of(plotter.image_from_window))
     _replace(plotter, "run_image_filter", _depth_of(plotter.run_image_filter))
     for name in ("start", "initialize", "process_events"):

@@ -4,6 +4,10 @@
 takes over. Needs the extra ``trimesh``.
 """
 
-from .viewer_hooks import install, uninstall
+from ...base.optional_packages import require
+
+require("trimesh", __name__, "trimesh")
+
+from .viewer_hooks import install, uninstall  # noqa: E402
 
 __all__ = ["install", "uninstall"]

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...base import linalg
 from ...base.calls import checks_types
+from ...base.optional_packages import needed
 from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.values import put_values, taken_rows
@@ -89,9 +90,8 @@ def _simplified(
     try:
         import fast_simplification
     except ImportError as error:
-        raise ImportError(
-            "simplify needs the package fast-simplification: engine3d[detail]", name=error.name
-        ) from error
+        message = needed("simplify needs", "fast-simplification", "detail")
+        raise ImportError(message, name=error.name) from error
 
     used, faces = np.unique(faces, return_inverse=True)
     faces = faces.reshape(-1, 3).astype(np.int32)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from ...base.optional_packages import needed
 from ...errors import Engine3DError, FileAccessError, FileFormatError, printable
 
 #: Bytes that a file at an address may have. Assignable.
@@ -70,9 +71,7 @@ def _system(url: str) -> tuple[Any, str]:
     try:
         from fsspec.core import url_to_fs
     except ImportError:
-        raise FileAccessError(
-            "addresses are read by the package fsspec: pip install 'engine3d[url]'", url
-        ) from None
+        raise FileAccessError(needed("addresses need", "fsspec", "url"), url) from None
     system, path = url_to_fs(url)
     return system, path
 

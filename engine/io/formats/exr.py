@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.optional_packages import needed
 from ...errors import FileAccessError, FileFormatError
 from ..reading.sources import Source
 from .images import check_image_size
@@ -39,9 +40,7 @@ def read_exr(source: Source) -> NDArray[np.float32]:
     try:
         import OpenEXR
     except ImportError:
-        raise FileAccessError(
-            "OpenEXR files are read by the package OpenEXR: pip install engine3d[exr]", source.path
-        ) from None
+        raise FileAccessError(needed("OpenEXR files need", "OpenEXR", "exr"), source.path) from None
     with tempfile.NamedTemporaryFile(suffix=".exr") as file:
         file.write(source.data)
         file.flush()

@@ -12,6 +12,7 @@ from __future__ import annotations
 import functools
 import importlib.util
 
+from ...base.optional_packages import needed
 from ...errors import FileFormatError
 from ..cad.shape_files import read_parts
 from ..reading.documents import Document
@@ -44,9 +45,7 @@ def read_step(source: Source, split: bool = False, kind: str = "step") -> Docume
     if importlib.util.find_spec("cascadio") is None:
         if _has_ocp():
             return _read_with_ocp(source, split, kind)
-        raise FileFormatError(
-            f"{kind} files need the package cascadio: pip install engine3d[step]", source.path
-        )
+        raise FileFormatError(needed(f"{kind} files need", "cascadio", "step"), source.path)
     convert = functools.partial(_converted, kind=kind)
     size = _SIZE_FACTOR * source.size + _SIZE_BESIDE
     content = in_limited_process(convert, source, split, size=size)
@@ -84,9 +83,7 @@ def _read_iges(source: Source, split: bool = False) -> Document:
 
 def _read_brep(source: Source, split: bool = False) -> Document:
     if not _has_ocp():
-        raise FileFormatError(
-            "brep files need the package cadquery-ocp: pip install engine3d[cad]", source.path
-        )
+        raise FileFormatError(needed("brep files need", "cadquery-ocp", "cad"), source.path)
     return _read_with_ocp(source, split, "brep")
 
 

@@ -14,6 +14,7 @@ import logging
 from collections.abc import Iterator
 from typing import Any
 
+from ...base.optional_packages import needed
 from ...errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
 from ..addresses.linked_urls import linked_files
 from ..reading.documents import Document
@@ -43,9 +44,7 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
     _check_beginning(source, kind)
     if importlib.util.find_spec("trimesh") is None:
         raise FileFormatError(
-            f"{source.extension or 'such'} files need the package trimesh: "
-            "pip install engine3d[formats]",
-            source.path,
+            needed(f"{source.extension or 'such'} files need", "trimesh", "formats"), source.path
         )
     is_packed = source.head(len(ZIP)) == ZIP
     size = source.size

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from ...base.files.atomic_write import atomic_write
+from ...base.optional_packages import needed
 from ...errors import FileAccessError, printable, warn
 from ...rendering.transparency import refuse_transparency
 
@@ -46,7 +47,7 @@ def find_ffmpeg(path: Any) -> str:
     except (ImportError, RuntimeError):
         program = shutil.which("ffmpeg")
     if program is None:
-        message = "MP4 needs the package imageio-ffmpeg: pip install 'engine3d[video]'"
+        message = needed("MP4 needs", "imageio-ffmpeg", "video")
         raise FileAccessError(f"cannot write: {message}", path)
     return program
 

@@ -10,6 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ...errors import FileFormatError
+from .sources import Source
+from .warning_list import WarningList
 from .xml_events import SEPARATOR, Attributes, read_xml
 
 _LINE_END = ord("\n")
@@ -46,6 +49,31 @@ class Element:
             if here is not None:
                 here = next((child for child in here.children if child.name == name), None)
         return here
+
+
+class XmlFile:
+    """The elements of a file, and the place of every fault: what formats of XML begin with.
+
+    Attributes
+    ----------
+    source : Source
+    warnings : WarningList
+    root : Element
+        Set by the format.
+    """
+
+    root: Element
+
+    def __init__(self, source: Source, warnings: WarningList) -> None:
+        self.source, self.warnings = source, warnings
+
+    def fault(self, message: str, element: Element) -> FileFormatError:
+        """Return an error about an element."""
+        return FileFormatError(message, self.source.path, element.line)
+
+    def warn(self, message: str, element: Element) -> None:
+        """Add a warning about an element."""
+        self.warnings.add(message, element.line)
 
 
 def read_elements(

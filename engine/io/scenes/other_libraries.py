@@ -1,4 +1,4 @@
-"""Scenes of what other libraries hold: trimesh, PyVista, meshio, Open3D, CAD and pandas.
+"""Scenes of what other libraries hold: trimesh, PyVista, vedo, meshio, Open3D, CAD, pandas.
 
 In: any object, or a list of them. Out: a `Scene` if a library of this list made it. None of them is
 imported here: who has such an object has imported its library.
@@ -16,6 +16,7 @@ from .open3d_scenes import scene_from_open3d
 from .pandas_scenes import scene_from_pandas
 from .pyvista_scenes import scene_from_pyvista
 from .trimesh_scenes import scene_from_trimesh
+from .vedo_scenes import scene_from_vedo
 
 #: Libraries of CAD, whose meshes have the edges of their models, and whose +Z is up.
 CAD_LIBRARIES = ("OCP", "build123d", "cadquery")
@@ -26,6 +27,7 @@ _SCENES: dict[str, Callable[[Any], Scene | None]] = {
     "pandas": scene_from_pandas,
     "pyvista": scene_from_pyvista,
     "trimesh": scene_from_trimesh,
+    "vedo": scene_from_vedo,
 }
 
 

@@ -98,6 +98,8 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     writing = _Writing(folder)
     writing.nodes(scene)
     writing.told += _lost_motion(scene)
+    if scene.robots:
+        writing.told.append("scenes of engine3d hold no joints: links stay where they stand")
     values = writing.values(scene)
     animator = scene.animator
     if animator is not None and any(motions_of(animator)):

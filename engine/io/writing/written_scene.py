@@ -317,6 +317,7 @@ class _Making:
             if not _are_equal(getattr(scene, name, None), getattr(usual, name, None))
         ]
         lost += ["colliders"] if any(node.collider is not None for node in nodes) else []
+        lost += ["joints"] if self._scene.robots else []
         lost += ["shadows"] if any(map(_tells_of_shadows, nodes)) else []
         if lost:
             self.told.append(f"gltf files do not hold {', '.join(lost)}")

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..._native.loaders import frozen
 from ...base import linalg
+from ...base.angles import Angle
 from ...base.near_words import meant
 from ...base.numbers import floats, shown
 from ...choices import JointKind
@@ -27,6 +28,8 @@ _NUMBERS = {
     "spherical": "three numbers: roll, pitch, yaw",
     "floating": "six numbers: x, y, z, roll, pitch, yaw; or a (4, 4) pose",
 }
+#: How many of a value's numbers are metres; those after them are radians.
+_LENGTHS = {"prismatic": 1, "planar": 2, "floating": 3}
 
 
 class JointForm(NamedTuple):
@@ -159,6 +162,12 @@ def _checked(form: JointForm, value: ArrayLike) -> JointValue:
     numbers = floats(value, f"position (the value of joint {form.name!r})")
     if not np.isfinite(numbers).all():
         raise InvalidArgumentError(f"joint {form.name!r} takes finite numbers, not {shown(value)}")
+    given = value if isinstance(value, tuple) else (value,)
+    for one in given[: _LENGTHS.get(form.kind, 0)]:
+        if isinstance(one, Angle):
+            raise InvalidArgumentError(
+                f"joint {form.name!r} is {form.kind}: it moves by metres, not by {one:.4g} rad"
+            )
     if form.is_single and numbers.shape in ((), (1,)):
         return float(numbers.reshape(()))
     if form.kind in ("planar", "spherical") and numbers.shape == (3,):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from ....base.optional_packages import needed
 from ....errors import Engine3DError
 from ...agents.server_limits import Limits
 from ...agents.usual_limits import MEGABYTE
@@ -24,8 +25,6 @@ def mcp(args: argparse.Namespace) -> int:
     except ImportError as error:
         if (error.name or "").partition(".")[0] not in ("mcp", "pydantic", "typing_extensions"):
             raise
-        raise Engine3DError(
-            "the server needs the package mcp, version 2: pip install 'engine3d[mcp]'"
-        ) from None
+        raise Engine3DError(needed("the server needs version 2 of", "mcp", "mcp")) from None
     serve(limits)
     return 0

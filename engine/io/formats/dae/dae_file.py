@@ -15,20 +15,14 @@ from ...reading.number_arrays import NotANumberError, read_numbers
 from ...reading.sources import Source
 from ...reading.text import shown
 from ...reading.warning_list import WarningList
-from ...reading.xml_elements import Element, read_elements
+from ...reading.xml_elements import Element, XmlFile, read_elements
 
 # The indices of a file are below this.
 _MOST_INDEX = 2**31
 
 
-class DaeFile:
+class DaeFile(XmlFile):
     """A COLLADA file.
-
-    Attributes
-    ----------
-    source : Source
-    warnings : WarningList
-    root : Element
 
     Raises
     ------
@@ -37,7 +31,7 @@ class DaeFile:
     """
 
     def __init__(self, source: Source, warnings: WarningList) -> None:
-        self.source, self.warnings = source, warnings
+        super().__init__(source, warnings)
         self.root = read_elements(source.data, source.path, texts=True)
         if self.root.name != "COLLADA":
             raise FileFormatError("not a dae file", source.path)
@@ -48,14 +42,6 @@ class DaeFile:
             if "id" in element.attributes:
                 self._by_id.setdefault(element.attributes["id"], element)
             waiting += element.children
-
-    def fault(self, message: str, element: Element) -> FileFormatError:
-        """Return an error about an element."""
-        return FileFormatError(message, self.source.path, element.line)
-
-    def warn(self, message: str, element: Element) -> None:
-        """Add a warning about an element."""
-        self.warnings.add(message, element.line)
 
     def find(self, url: str, *names: str) -> Element | None:
         """Return the element of a URL within the file, if it has one of the names."""

@@ -12,6 +12,7 @@ import struct
 import numpy as np
 
 from ...._native.loaders import frozen
+from ....base.optional_packages import needed
 from ....errors import FileFormatError
 from ...reading.limited_process import in_limited_process
 from ...reading.sources import Source
@@ -52,8 +53,7 @@ def read_packed(source: Source) -> np.ndarray:
     """
     if not is_installed():
         raise NotInstalledError(
-            "is packed by Basis Universal, which needs the package opengl-basisu: "
-            "pip install engine3d[ktx2]"
+            needed("is packed by Basis Universal, which needs", "opengl-basisu", "ktx2")
         )
     size = source.size
     if source.data.startswith(_KTX2):

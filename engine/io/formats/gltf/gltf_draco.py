@@ -15,6 +15,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ....base.optional_packages import needed
 from ...reading.limited_process import in_limited_process
 from ...reading.sources import Source
 from .gltf_buffers import GltfBuffers
@@ -65,8 +66,7 @@ class GltfDraco:
             if self._has_plain(entry, where) and not self._is_required():
                 return None
             raise self._file.error(
-                f"{where} is packed by {DRACO}, which needs the package DracoPy: "
-                "pip install engine3d[draco]"
+                needed(f"{where} is packed by {DRACO}, which needs", "DracoPy", "draco")
             )
         if self._meshes is None:
             self._meshes = self._unpack_all()

@@ -12,11 +12,10 @@ from collections.abc import Iterable
 from typing import NoReturn
 
 from ....base.near_words import meant
-from ....errors import FileFormatError
 from ...reading.sources import Source
 from ...reading.text import shown
 from ...reading.warning_list import WarningList
-from ...reading.xml_elements import Element, read_elements
+from ...reading.xml_elements import Element, XmlFile, read_elements
 from ...reading.xml_events import XmlFault
 
 _XACRO = "this is xacro, from which URDF is made: xacro IN.urdf.xacro > OUT.urdf"
@@ -27,14 +26,8 @@ _END = b"</robot>"
 _BETWEEN = re.compile(r"[\s,]+")
 
 
-class UrdfText:
-    """The elements of a file, and the place of every fault.
-
-    Attributes
-    ----------
-    source : Source
-    warnings : WarningList
-    root : Element
+class UrdfText(XmlFile):
+    """The elements of a file of a robot.
 
     Raises
     ------
@@ -43,7 +36,7 @@ class UrdfText:
     """
 
     def __init__(self, source: Source, warnings: WarningList) -> None:
-        self.source, self.warnings = source, warnings
+        super().__init__(source, warnings)
         data = self._repaired(source.data)
         self.root = self._parsed(data)
         if self.root.name != "robot":
@@ -68,14 +61,6 @@ class UrdfText:
                 raise XmlFault(_XACRO)
 
         return read_elements(data, self.source.path, check)
-
-    def fault(self, message: str, element: Element) -> FileFormatError:
-        """Return an error about an element."""
-        return FileFormatError(message, self.source.path, element.line)
-
-    def warn(self, message: str, element: Element) -> None:
-        """Add a warning about an element."""
-        self.warnings.add(message, element.line)
 
     def name(self, element: Element, attribute: str = "name") -> str:
         """Return a name that an element must have."""

@@ -45,9 +45,9 @@ static int find_stretches(const void *argument, int32_t number, drw_scratch *scr
     if (!(length > 0) || !isfinite(length))
         return 0;
     *least = fmin(job->tolerance / length, 0.5);
-    drw_span rows = drw_rows(grid, own, 2);
-    for (int32_t row = rows.first; row <= rows.last; row++) {
-        drw_span columns = drw_columns(grid, own, 2, row);
+    drw_block block = drw_block_of(grid, own, 2);
+    for (int32_t row = block.rows.first; row <= block.rows.last; row++) {
+        drw_span columns = drw_columns(grid, own, 2, block, row);
         for (int32_t column = columns.first; column <= columns.last; column++) {
             size_t cell = (size_t)row * (size_t)grid->columns + (size_t)column;
             for (int32_t i = grid->starts[cell]; i < grid->starts[cell + 1]; i++)

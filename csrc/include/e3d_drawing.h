@@ -75,3 +75,53 @@ typedef struct e3d_crossing {
  * other triangle's plane lies on it. *crossings is to be freed with free(). */
 e3d_status e3d_cross_surfaces(const double *places, const int32_t *faces, const int32_t *parts, size_t count, double thickness,
                               int threads, e3d_crossing **crossings, size_t *found);
+
+/* Triangles in the world. */
+typedef struct e3d_surface {
+    const double *places; /* (vertex_count, 3) */
+    const int32_t *faces; /* (face_count, 3) */
+    size_t vertex_count, face_count;
+} e3d_surface;
+
+/* The edges of triangles, and the triangles at their sides. */
+typedef struct e3d_edges {
+    e3d_surface of;
+    const double *normals;        /* (face_count, 3): unit normals, or 0 */
+    const int32_t *parts;         /* (face_count,) */
+    const int32_t *ends, *beside; /* (count, 2): vertices, and triangles, the second of which may be -1 for none */
+    const uint8_t *turned;        /* (count,): whether the two triangles have opposite winding */
+    const int8_t *kinds;          /* (count,): what an edge is even if it is no outline, -1 for nothing */
+    size_t count;
+} e3d_edges;
+
+/* Lines that are no edges. */
+typedef struct e3d_other_lines {
+    const double *ends; /* (count, 2, 3) in the world */
+    const int8_t *kinds;
+    const int32_t *parts;
+    size_t count, cut; /* the first plane of the view cuts only the first `cut` */
+} e3d_other_lines;
+
+enum { E3D_VIEW_PLANES = 4 };
+
+typedef struct e3d_view {
+    double clip_from_world[16], size[2]; /* of the frame, in millimetres */
+    double eye[4];                       /* the viewer, or the direction to him and 0 */
+    double planes[E3D_VIEW_PLANES][4];   /* what is drawn has a x + b y + c z + d >= 0 */
+    size_t plane_count;
+    double thickness; /* as that of e3d_hiders */
+    double nearness;  /* millimetres: lines so near each other are one stroke */
+    int32_t is_parallel;
+    int8_t outline; /* the kind of outlines; kinds are at least 0, the most important first */
+} e3d_view;
+
+/* A straight piece of a line on paper: x right, y down, from the frame's upper left corner, in millimetres. */
+typedef struct e3d_stroke {
+    double ends[4];
+    int32_t part;
+    int8_t kind, is_hidden;
+} e3d_stroke;
+
+/* The strokes of a view: visible ones first, by their kinds; each place once. *strokes is to be freed with free(). */
+e3d_status e3d_draw_view(const e3d_edges *edges, const e3d_other_lines *others, const e3d_surface *hiders, const e3d_view *view,
+                         int threads, e3d_stroke **strokes, size_t *count);

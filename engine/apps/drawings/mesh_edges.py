@@ -7,7 +7,7 @@ same place are one point, as for creases.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from ..._native import drawing as native
 from ..._native import loaders
 from ...base import linalg
-from ...model.geometry.derived import arrays_of
-from ...model.geometry.mesh import Mesh
+from .line_kinds import BORDER, CREASE
 
 #: Triangles lower than this share of the largest coordinate have no direction of their own:
 #: coordinates are rounded to 24 bits.
@@ -44,8 +43,9 @@ class MeshEdges(NamedTuple):
         The triangles at its sides, -1 for none.
     turned : (E,) bool
         Whether these have opposite winding.
-    creases, borders : (E,) bool
-        A border is an edge of one triangle; a crease is sharp, or an edge of more than two.
+    kinds : (E,) int8
+        `BORDER` for an edge of one triangle, `CREASE` for a sharp one or one of more than two,
+        -1 for one that is a line only as an outline.
     lines : (L, 2) int32
         The mesh's own lines.
     """
@@ -56,23 +56,22 @@ class MeshEdges(NamedTuple):
     ends: NDArray[np.int32]
     beside: NDArray[np.int32]
     turned: NDArray[np.bool_]
-    creases: NDArray[np.bool_]
-    borders: NDArray[np.bool_]
+    kinds: NDArray[np.int8]
     lines: NDArray[np.int32]
 
 
 @np.errstate(all="ignore")
-def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
+def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
     """Return the triangles and edges of a mesh.
 
     Parameters
     ----------
-    mesh : Mesh
+    arrays : dict
+        Those of a mesh, as `arrays_of` returns them.
     crease_angle : float
         Radians: triangles that meet at more than this angle have a crease between them, unless the
         mesh has normals of its own that do not break there.
     """
-    arrays = arrays_of(mesh)
     points, first = loaders.number_rows(arrays["positions"].view(np.uint32), True)
     positions = arrays["positions"][first].astype(np.float64)
     is_finite = np.isfinite(positions).all(axis=1)
@@ -87,7 +86,6 @@ def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
     ends = np.stack([sides["low"], sides["high"]], axis=1)
     beside = np.stack([sides["first"] // 3, np.where(sides["uses"] > 1, sides["second"] // 3, -1)])
     beside = np.ascontiguousarray(beside.T, np.int32)
-    borders = sides["uses"] == 1
     creases = sides["uses"] > 2
     pairs = np.flatnonzero(sides["uses"] == 2)
     is_needless = _see_through_flat_faces(sides, beside, faces, positions, is_flat)
@@ -103,6 +101,8 @@ def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
         corners = arrays["faces"][sources].reshape(-1)
         sharp &= _broken(sides[pairs], faces, arrays["_given_normals"][corners])
     creases[pairs] = sharp
+    kinds = np.where(creases, CREASE, -1).astype(np.int8)
+    kinds[sides["uses"] == 1] = BORDER
     lines = arrays["lines"]
     lines = np.zeros((0, 2), np.int32) if lines is None else points[lines]
     kept = ~is_needless
@@ -113,8 +113,7 @@ def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
         ends[kept],
         beside[kept],
         turned[kept],
-        creases[kept],
-        borders[kept],
+        kinds[kept],
         lines[is_finite[lines].all(axis=1)],
     )
 

@@ -1,0 +1,15 @@
+/* The lines of a view, before anything hides them.
+ * In: the edges of surfaces, other lines, and a view. Out: those that it shows, cut by its planes and by the frame's sides. */
+#pragma once
+
+#include "base/grow.h"
+#include "e3d_drawing.h"
+
+/* A line in the world. */
+typedef struct drw_line {
+    double ends[6];
+    int32_t part, kind;
+} drw_line;
+
+/* Appends the lines of drw_line: edges first, in their order. */
+e3d_status drw_find_lines(const e3d_edges *edges, const e3d_other_lines *others, const e3d_view *view, e3d_array *lines);

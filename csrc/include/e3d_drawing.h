@@ -25,6 +25,7 @@ typedef struct e3d_hiders {
     double eye[4];        /* the viewer, or the direction to him and 0 */
     double thickness;     /* a line so near a triangle's plane lies on it, in the world's units */
     double reach;         /* triangles reach so far beyond their sides, in the drawing's units */
+    const uint8_t *needless; /* (count,): those that others hide lines for; NULL: none */
 } e3d_hiders;
 
 typedef struct e3d_lines {
@@ -58,6 +59,11 @@ typedef struct e3d_side {
  * to itself are none. *sides is to be freed with free(). */
 e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e3d_side **sides, size_t *found);
 
+/* For each of `count` triangles, whose sides are given, 1 if it belongs to a body that encloses a volume with its fronts outside, -1
+ * if with its backs, else 0. */
+e3d_status e3d_find_enclosing(const double *places, size_t vertices, const int32_t *faces, size_t count, const e3d_side *sides, size_t side_count,
+                              int8_t *enclosing);
+
 /* The unit normals (count, 3) of triangles; 0 for those whose height is at most `lowest`, or that are not finite. */
 void e3d_find_normals(const double *places, const int32_t *faces, size_t count, double lowest, double *normals);
 
@@ -88,6 +94,7 @@ typedef struct e3d_edges {
     e3d_surface of;
     const double *normals;        /* (face_count, 3): unit normals, or 0 */
     const int32_t *parts;         /* (face_count,) */
+    const int8_t *enclosing;      /* (face_count,): as of e3d_find_enclosing */
     const int32_t *ends, *beside; /* (count, 2): vertices, and triangles, the second of which may be -1 for none */
     const uint8_t *turned;        /* (count,): whether the two triangles have opposite winding */
     const int8_t *kinds;          /* (count,): what an edge is even if it is no outline, -1 for nothing */
@@ -112,6 +119,7 @@ typedef struct e3d_view {
     double thickness; /* as that of e3d_hiders */
     double nearness;  /* millimetres: lines so near each other are one stroke */
     int32_t is_parallel;
+    int32_t is_outside; /* whether the viewer is outside of all bodies; the planes cut none of these */
     int8_t outline; /* the kind of outlines; kinds are at least 0, the most important first */
 } e3d_view;
 

@@ -86,7 +86,7 @@ def hide_lines(
     hiders.places = &places[0, 0] if places.shape[0] else NULL
     hiders.sheet = &sheet[0, 0] if places.shape[0] else NULL
     hiders.faces = &faces[0, 0] if faces.shape[0] else NULL
-    hiders.count, hiders.thickness, hiders.reach = faces.shape[0], thickness, reach
+    hiders.count, hiders.thickness, hiders.reach, hiders.needless = faces.shape[0], thickness, reach, NULL
     for k in range(4):
         hiders.eye[k] = eye[k]
     lines.places, lines.sheet = &line_places[0, 0, 0], &line_sheet[0, 0, 0]
@@ -123,6 +123,30 @@ def find_sides(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArray
         status = e3d_find_sides(&faces[0, 0], faces.shape[0], vertices, &sides, &count)
     check(status)
     return taken(<void **>&sides, count, SIDE)
+
+
+def find_enclosing(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, sides) -> NDArray[np.int8]:
+    """Return for each triangle (F, 3) whether it belongs to a body that encloses a volume: 1, or -1 if its backs are outside.
+
+    ``sides`` are those that `find_sides` returns.
+    """
+    require(places.shape[1] == 3, "places have three coordinates")
+    check_indices(faces, places.shape[0])
+    cdef const uint8_t[::1] records = np.ascontiguousarray(sides, SIDE).view(np.uint8)
+    enclosing = np.zeros(faces.shape[0], np.int8)
+    cdef int8_t[::1] view = enclosing
+    cdef size_t count = faces.shape[0], side_count = records.shape[0] // sizeof(e3d_side)
+    cdef e3d_status status
+    require(not side_count or (0 <= sides["first"].min() and max(sides["first"].max(), sides["second"].max()) < 3 * count),
+            "sides name faces that are not there")
+    require(not side_count or (0 <= sides["low"].min() and max(sides["low"].max(), sides["high"].max()) < places.shape[0]),
+            "sides name vertices that are not there")
+    if count and side_count:
+        with nogil:
+            status = e3d_find_enclosing(
+                &places[0, 0], places.shape[0], &faces[0, 0], count, <const e3d_side *>&records[0], side_count, &view[0])
+        check(status)
+    return enclosing
 
 
 def find_normals(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, double lowest) -> NDArray[np.float64]:
@@ -181,7 +205,7 @@ cdef e3d_surface surface_of(const double[:, ::1] places, const int32_t[:, ::1] f
 cdef class Edges:
     """The edges (E,) of triangles (F, 3) of vertices (V, 3), checked once for all views.
 
-    ``normals`` (F, 3) and ``parts`` (F,) are those of the triangles. ``ends``, ``beside`` (E, 2) are an edge's vertices, and
+    ``normals`` (F, 3), ``parts`` and ``enclosing`` (F,) are those of the triangles. ``ends``, ``beside`` (E, 2) are an edge's vertices, and
     the triangles at its sides, -1 for none. ``turned`` (E,): these have opposite winding. ``kinds`` (E,): what an edge is even
     if it is no outline, -1 for nothing.
     """
@@ -191,37 +215,38 @@ cdef class Edges:
 
     def __init__(
         self, const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, const double[:, ::1] normals not None,
-        const int32_t[::1] parts not None, const int32_t[:, ::1] ends not None, const int32_t[:, ::1] beside not None,
+        const int32_t[::1] parts not None, const int8_t[::1] enclosing not None, const int32_t[:, ::1] ends not None, const int32_t[:, ::1] beside not None,
         const uint8_t[::1] turned not None, const int8_t[::1] kinds not None,
     ):
         cdef size_t count = ends.shape[0]
         self.c.of = surface_of(places, faces)
         check_indices(faces, places.shape[0])
-        require(normals.shape[0] == faces.shape[0] and normals.shape[1] == 3 and parts.shape[0] == faces.shape[0],
-                "the arrays of triangles do not fit each other")
+        require(normals.shape[0] == faces.shape[0] and normals.shape[1] == 3 and parts.shape[0] == faces.shape[0]
+                and enclosing.shape[0] == faces.shape[0], "the arrays of triangles do not fit each other")
         require(<size_t>beside.shape[0] == count and <size_t>turned.shape[0] == count and <size_t>kinds.shape[0] == count
                 and ends.shape[1] == 2 and beside.shape[1] == 2, "the arrays of edges do not fit each other")
         if count:
             of, at = np.asarray(ends), np.asarray(beside)
             require(0 <= of.min() and of.max() < places.shape[0], "edges name vertices that are not there")
             require(0 <= at[:, 0].min() and -1 <= at.min() and at.max() < faces.shape[0], "edges name faces that are not there")
-            self.c.normals, self.c.parts = &normals[0, 0], &parts[0]
+            self.c.normals, self.c.parts, self.c.enclosing = &normals[0, 0], &parts[0], &enclosing[0]
             self.c.ends, self.c.beside, self.c.turned, self.c.kinds = &ends[0, 0], &beside[0, 0], &turned[0], &kinds[0]
         self.c.count = count
-        self.kept = places, faces, normals, parts, ends, beside, turned, kinds
+        self.kept = places, faces, normals, parts, enclosing, ends, beside, turned, kinds
 
 
 def draw_view(
     Edges edges not None, const double[:, :, ::1] other_ends not None, const int8_t[::1] other_kinds not None,
     const int32_t[::1] other_parts not None, size_t cut, const double[:, ::1] places, const int32_t[:, ::1] faces,
-    const double[:, ::1] clip_from_world not None, size, eye, bint is_parallel, const double[:, ::1] planes not None,
+    const double[:, ::1] clip_from_world not None, size, eye, bint is_parallel, bint is_outside, const double[:, ::1] planes not None,
     double thickness, double nearness, int outline, int threads,
 ) -> NDArray[Any]:
     """Return the strokes (S,) of `STROKE` of a view: of edges and other lines (N, 2, 3), before and behind triangles.
 
     Triangles (F, 3) of vertices (V, 3) hide, if they are given, else those of the edges.
     The first plane (K, 4) of the view leaves out what is below it of edges and of the first ``cut`` other lines, the
-    others all that is. ``size``, in millimetres, is that of the frame; ``eye`` the viewer, or the direction to him and 0.
+    others all that is. ``size``, in millimetres, is that of the frame; ``eye`` the viewer, or the direction to him and 0, who may be outside of
+    all bodies.
     """
     cdef e3d_other_lines others
     cdef e3d_view view
@@ -248,6 +273,7 @@ def draw_view(
     for k in range(4):
         view.eye[k] = eye[k]
     view.thickness, view.nearness, view.is_parallel, view.outline = thickness, nearness, is_parallel, outline
+    view.is_outside = is_outside and faces is None
     with nogil:
         status = e3d_draw_view(&edges.c, &others, &hiders, &view, threads, &strokes, &count)
     check(status)

@@ -7,7 +7,6 @@
 
 enum { MOST_CELLS_ACROSS = 4096,
        FEW_CELLS = 2 }; /* blocks of so many across are touched as a whole: it costs less than to ask */
-#define CELLS_AN_ITEM 0.1
 #define MOST_ENTRIES_AN_ITEM 12
 #define FREE_ENTRIES 65536
 
@@ -186,9 +185,9 @@ static size_t count_all(drw_grid *grid, drw_items items, int32_t *order, size_t 
 }
 
 e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,
-                         const double low[2], const double high[2], double margin)
+                         const double low[2], const double high[2], double margin, double cells_an_item)
 {
-    double size[2] = {high[0] - low[0], high[1] - low[1]}, wanted = CELLS_AN_ITEM * (double)(*count + 8);
+    double size[2] = {high[0] - low[0], high[1] - low[1]}, wanted = cells_an_item * (double)(*count + 8);
     size_t limit = MOST_ENTRIES_AN_ITEM * *count + FREE_ENTRIES, entries, kept;
     limit = limit < INT32_MAX / 2 ? limit : INT32_MAX / 2;
     *grid = (drw_grid){{low[0], low[1]}, {1, 1}, margin, 1, 1, NULL, NULL, NULL};

@@ -34,9 +34,10 @@ typedef struct drw_items {
 /* Finds the box of lines; those whose length is not finite have no pieces, and do not count. */
 void drw_measure(const double *lines, size_t count, double low[2], double high[2]);
 /* Makes a grid over a box for items, of which `order` lists *count. Items reach `margin` beyond their corners. Only cells that
- * some of `lines` touch get lists (all if there are no lines, NULL). Items in no list are taken out of `order`. */
+ * some of `lines` touch get lists (all if there are no lines, NULL). Items in no list are taken out of `order`. There are about
+ * `cells_an_item` cells for each item, fewer if lists become long. */
 e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,
-                         const double low[2], const double high[2], double margin);
+                         const double low[2], const double high[2], double margin, double cells_an_item);
 /* Makes the lists, of the same items in any order; without `order`, of items 0 .. count - 1. */
 e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, size_t count);
 void drw_grid_free(drw_grid *grid);

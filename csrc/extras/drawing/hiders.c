@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The search is so fast beside the making of lists that cells are large. */
+#define CELLS_A_TRIANGLE 0.1
+
 /* Depths are told apart by so many steps. */
 enum { STEPS = 2048 };
 
@@ -88,7 +91,8 @@ static void choose(drw_hiders *all, chosen *out)
     double farthest = -INFINITY;
     all->nearest = INFINITY;
     for (size_t face = 0; face < all->given->count; face++) {
-        if (!copy_corners(all->given, face, out->low, out->high, out->corners + 6 * out->count))
+        if ((all->given->needless && all->given->needless[face]) ||
+            !copy_corners(all->given, face, out->low, out->high, out->corners + 6 * out->count))
             continue;
         double depth = least_depth(all->given, face);
         all->nearest = less(all->nearest, depth);
@@ -139,7 +143,7 @@ static e3d_status list(drw_hiders *all, chosen *some, const double *ends, const 
     all->count = some->count;
     drw_items items = {some->corners, 3};
     e3d_status status = drw_grid_make(&all->grid, items, some->listed, &all->count, ends, lines->count, some->low, some->high,
-                                      all->given->reach);
+                                      all->given->reach, CELLS_A_TRIANGLE);
     if (status == E3D_OK)
         status = sort(all, some);
     return status == E3D_OK ? drw_grid_fill(&all->grid, (drw_items){all->corners, 3}, NULL, all->count) : status;

@@ -63,7 +63,7 @@ static int add(e3d_array *lines, const cutter *by, const double *a, const double
     return 1;
 }
 
-static uint8_t is_front(const e3d_edges *edges, size_t face, const double eye[4])
+static int8_t facing_of(const e3d_edges *edges, size_t face, const double eye[4])
 {
     const double *normal = edges->normals + 3 * face, *place = edges->of.places + 3 * (size_t)edges->of.faces[3 * face];
     double to_eye[3];
@@ -71,34 +71,36 @@ static uint8_t is_front(const e3d_edges *edges, size_t face, const double eye[4]
         to_eye[k] = eye[k] - place[k] * eye[3];
     double sine = ((normal[0] * to_eye[0] + normal[1] * to_eye[1]) + normal[2] * to_eye[2]) /
                   sqrt((to_eye[0] * to_eye[0] + to_eye[1] * to_eye[1]) + to_eye[2] * to_eye[2]);
-    return sine > EDGE_ON;
+    return (int8_t)((sine > EDGE_ON) - (sine < -EDGE_ON));
 }
 
-static e3d_status add_edges(const e3d_edges *edges, const e3d_view *view, const cutter *by, e3d_array *lines)
+void drw_find_facing(const e3d_edges *edges, const double eye[4], int8_t *facing)
 {
-    uint8_t *fronts = malloc(edges->of.face_count + 1);
-    int fits = fronts != NULL;
-    for (size_t face = 0; fits && face < edges->of.face_count; face++)
-        fronts[face] = is_front(edges, face, view->eye);
-    for (size_t i = 0; fits && i < edges->count; i++) {
-        const int32_t *ends = edges->ends + 2 * i, *beside = edges->beside + 2 * i;
-        int is_outline = beside[1] >= 0 && fronts[beside[0]] != (fronts[beside[1]] ^ edges->turned[i]);
-        if (is_outline || edges->kinds[i] >= 0)
-            fits = add(lines, by, edges->of.places + 3 * (size_t)ends[0], edges->of.places + 3 * (size_t)ends[1],
-                       is_outline ? view->outline : edges->kinds[i], edges->parts[beside[0]]);
-    }
-    free(fronts);
-    return fits ? E3D_OK : E3D_OUT_OF_MEMORY;
+    for (size_t face = 0; face < edges->of.face_count; face++)
+        facing[face] = facing_of(edges, face, eye);
 }
 
-e3d_status drw_find_lines(const e3d_edges *edges, const e3d_other_lines *others, const e3d_view *view, e3d_array *lines)
+static int add_edges(const e3d_edges *edges, const int8_t *facing, const e3d_view *view, const cutter *by, e3d_array *lines)
+{
+    for (size_t i = 0; i < edges->count; i++) {
+        const int32_t *ends = edges->ends + 2 * i, *beside = edges->beside + 2 * i;
+        int is_outline = beside[1] >= 0 && (facing[beside[0]] > 0) != ((facing[beside[1]] > 0) ^ edges->turned[i]);
+        if ((is_outline || edges->kinds[i] >= 0) &&
+            !add(lines, by, edges->of.places + 3 * (size_t)ends[0], edges->of.places + 3 * (size_t)ends[1],
+                 is_outline ? view->outline : edges->kinds[i], edges->parts[beside[0]]))
+            return 0;
+    }
+    return 1;
+}
+
+e3d_status drw_find_lines(const e3d_edges *edges, const int8_t *facing, const e3d_other_lines *others, const e3d_view *view,
+                          e3d_array *lines)
 {
     cutter all = cutter_of(view, 0), but_first = cutter_of(view, 1);
-    e3d_status status = add_edges(edges, view, &all, lines);
-    for (size_t i = 0; status == E3D_OK && i < others->count; i++) {
+    int fits = add_edges(edges, facing, view, &all, lines);
+    for (size_t i = 0; fits && i < others->count; i++) {
         const double *ends = others->ends + 6 * i;
-        if (!add(lines, i < others->cut ? &all : &but_first, ends, ends + 3, others->kinds[i], others->parts[i]))
-            status = E3D_OUT_OF_MEMORY;
+        fits = add(lines, i < others->cut ? &all : &but_first, ends, ends + 3, others->kinds[i], others->parts[i]);
     }
-    return status;
+    return fits ? E3D_OK : E3D_OUT_OF_MEMORY;
 }

@@ -11,5 +11,8 @@ typedef struct drw_line {
     int32_t part, kind;
 } drw_line;
 
+/* Finds which triangles are seen from the front, 1, or from the back, -1; 0 is edge on. */
+void drw_find_facing(const e3d_edges *edges, const double eye[4], int8_t *facing);
 /* Appends the lines of drw_line: edges first, in their order. */
-e3d_status drw_find_lines(const e3d_edges *edges, const e3d_other_lines *others, const e3d_view *view, e3d_array *lines);
+e3d_status drw_find_lines(const e3d_edges *edges, const int8_t *facing, const e3d_other_lines *others, const e3d_view *view,
+                          e3d_array *lines);

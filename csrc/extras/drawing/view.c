@@ -15,6 +15,8 @@ enum { KINDS = 128 };
 
 typedef struct drawing {
     const e3d_view *view;
+    int8_t *facing;    /* (faces,) of the edges */
+    uint8_t *needless; /* (faces,): as of e3d_hiders */
     e3d_array lines; /* of drw_line */
     double *ends;    /* (lines, 2, 3) */
     double *paper;   /* (lines, 2, E3D_SHEET) */
@@ -87,10 +89,17 @@ static e3d_status place(drawing *job, const e3d_surface *hiders)
     return find_nothing(job);
 }
 
+/* Seen from outside, a body that encloses a volume hides nothing with its backs that its fronts do not hide. */
+static void find_needless(drawing *job, const e3d_edges *edges)
+{
+    for (size_t face = 0; face < edges->of.face_count; face++)
+        job->needless[face] = job->facing[face] && job->facing[face] == -edges->enclosing[face];
+}
+
 static e3d_status hide(drawing *job, const e3d_surface *by, int threads)
 {
     const double *eye = job->view->eye;
-    e3d_hiders hiders = {by->places, job->corners, by->faces, by->face_count, {eye[0], eye[1], eye[2], eye[3]}, job->view->thickness, REACH * job->nothing};
+    e3d_hiders hiders = {by->places, job->corners, by->faces, by->face_count, {eye[0], eye[1], eye[2], eye[3]}, job->view->thickness, REACH * job->nothing, job->view->is_outside ? job->needless : NULL};
     e3d_lines lines = {job->ends, job->paper, job->lines.count, job->nothing};
     return e3d_hide_lines(&hiders, &lines, threads, &job->pieces, &job->piece_count);
 }
@@ -150,6 +159,18 @@ static e3d_status draw_once(drawing *job, int threads, e3d_stroke **strokes, siz
     return E3D_OK;
 }
 
+/* Finds the lines, and which triangles are seen from where. */
+static e3d_status look(drawing *job, const e3d_edges *edges, const e3d_other_lines *others)
+{
+    job->facing = malloc(edges->of.face_count + 1);
+    job->needless = malloc(edges->of.face_count + 1);
+    if (!job->facing || !job->needless)
+        return E3D_OUT_OF_MEMORY;
+    drw_find_facing(edges, job->view->eye, job->facing);
+    find_needless(job, edges);
+    return drw_find_lines(edges, job->facing, others, job->view, &job->lines);
+}
+
 e3d_status e3d_draw_view(const e3d_edges *edges, const e3d_other_lines *others, const e3d_surface *hiders, const e3d_view *view,
                          int threads, e3d_stroke **strokes, size_t *count)
 {
@@ -157,7 +178,7 @@ e3d_status e3d_draw_view(const e3d_edges *edges, const e3d_other_lines *others, 
     drawing job = {.view = view};
     *strokes = NULL;
     *count = 0;
-    e3d_status status = drw_find_lines(edges, others, view, &job.lines);
+    e3d_status status = look(&job, edges, others);
     if (status == E3D_OK && job.lines.count) {
         status = place(&job, hiders);
         if (status == E3D_OK)
@@ -167,6 +188,8 @@ e3d_status e3d_draw_view(const e3d_edges *edges, const e3d_other_lines *others, 
         if (status == E3D_OK)
             status = draw_once(&job, threads, strokes, count);
     }
+    free(job.facing);
+    free(job.needless);
     e3d_array_free(&job.lines);
     free(job.ends);
     free(job.paper);

@@ -37,6 +37,9 @@ class MeshEdges(NamedTuple):
         Finite triangles of three points, each once.
     sources : (F,) int64
         Their numbers in ``mesh.faces``.
+    enclosing : (F,) int8
+        1 for a triangle of a body that encloses a volume with its fronts outside, -1 with its
+        backs, else 0.
     ends : (E, 2) int32
         The points of each edge.
     beside : (E, 2) int32
@@ -53,6 +56,7 @@ class MeshEdges(NamedTuple):
     positions: NDArray[np.float64]
     faces: NDArray[np.int32]
     sources: NDArray[np.int64]
+    enclosing: NDArray[np.int8]
     ends: NDArray[np.int32]
     beside: NDArray[np.int32]
     turned: NDArray[np.bool_]
@@ -110,6 +114,7 @@ def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
         positions,
         faces,
         sources,
+        native.find_enclosing(positions, faces, sides),
         ends[kept],
         beside[kept],
         turned[kept],

@@ -90,6 +90,7 @@ def find_pieces(
         cut.append(surfaces.intersections(threads))
     others = joined_lines([*cut, *(more_lines or [])])
     planes = projection.planes(surfaces.bounds)
+    eye = projection.eye()
     found = native.draw_view(
         surfaces.edges,
         *others,
@@ -98,8 +99,9 @@ def find_pieces(
         *_hiders(surfaces, planes, caps or []),
         projection.clip_from_world,
         projection.size,
-        projection.eye(),
+        eye,
         projection.is_parallel,
+        projection.is_parallel or _is_beside(eye, surfaces.bounds),
         planes,
         surfaces.thickness,
         min(_ONE_STROKE, _MOST_SHARE * max(projection.size)),
@@ -107,6 +109,12 @@ def find_pieces(
         threads,
     )
     return Pieces(found["ends"], found["kind"], found["part"], found["is_hidden"] != 0)
+
+
+def _is_beside(eye: NDArray[np.float64], bounds: NDArray[np.float64]) -> bool:
+    """Return whether a viewer is outside of a box."""
+    place = eye[:3] / eye[3]
+    return bool(((place < bounds[0]) | (place > bounds[1])).any())
 
 
 def _hiders(

@@ -62,11 +62,9 @@ class Surfaces:
     ) -> None:
         self.names = names
         joined = _joined(placed)
-        self.places, self.faces, self.parts, ends, beside, turned, kinds, lines, line_parts = joined
+        self.places, self.faces, self.parts, enclosing, *edges, lines, line_parts = joined
         normals, _ = face_normals(self.places, self.faces)
-        self.edges = native.Edges(
-            self.places, self.faces, normals, self.parts, ends, beside, turned.view(np.uint8), kinds
-        )
+        self.edges = native.Edges(self.places, self.faces, normals, self.parts, enclosing, *edges)
         self.lines = lines_of(self.places[lines], LINE, line_parts)
         self.bounds = np.zeros((2, 3))
         if len(self.places):
@@ -170,9 +168,10 @@ def _joined(placed: list[tuple[MeshEdges, NDArray[np.float64]]]) -> list[NDArray
                 linalg.transform_points(pose, edges.positions),
                 edges.faces + np.int32(vertices),
                 np.full(len(edges.faces), part, np.int32),
+                edges.enclosing * _winding(pose),
                 edges.ends + np.int32(vertices),
                 np.where(edges.beside >= 0, edges.beside + np.int32(faces), np.int32(-1)),
-                edges.turned,
+                edges.turned.view(np.uint8),
                 edges.kinds,
                 edges.lines + np.int32(vertices),
                 np.full(len(edges.lines), part, np.int32),
@@ -180,6 +179,12 @@ def _joined(placed: list[tuple[MeshEdges, NDArray[np.float64]]]) -> list[NDArray
         )
         vertices, faces = vertices + len(edges.positions), faces + len(edges.faces)
     return list(map(_together, zip(*rows, strict=True)))
+
+
+def _winding(pose: NDArray[np.float64]) -> np.int8:
+    """Return -1 for a pose that mirrors, 0 for one that makes all flat, else 1."""
+    x, y, z = pose[:3, :3]
+    return np.int8(np.sign(linalg.dot(x, linalg.cross(y, z))))
 
 
 def _together(rows: tuple[NDArray[Any], ...]) -> NDArray[Any]:
@@ -191,5 +196,6 @@ _NONE, _NO_PAIRS = np.zeros(0, np.int32), np.zeros((0, 2), np.int32)
 _NOTHING: tuple[NDArray[Any], ...] = (
     np.zeros((0, 3)),
     np.zeros((0, 3), np.int32),
-    *(_NONE, _NO_PAIRS, _NO_PAIRS, np.zeros(0, bool), np.zeros(0, np.int8), _NO_PAIRS, _NONE),
+    *(_NONE, np.zeros(0, np.int8), _NO_PAIRS, _NO_PAIRS),
+    *(np.zeros(0, np.uint8), np.zeros(0, np.int8), _NO_PAIRS, _NONE),
 )

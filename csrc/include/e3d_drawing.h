@@ -33,6 +33,7 @@ typedef struct e3d_lines {
     const double *sheet;  /* (count, 2, E3D_SHEET) */
     size_t count;         /* below 2^31 */
     double least;         /* shorter pieces belong to their neighbours, in the drawing's units */
+    const uint8_t *behind; /* (count,): those that are known to be hidden; NULL: none */
 } e3d_lines;
 
 /* A stretch of a line, from 0 to 1 on the drawing. */
@@ -58,6 +59,13 @@ typedef struct e3d_side {
 /* The edges of triangles (count, 3) of `vertices` vertices, each once, by their vertices in ascending order. Sides from a vertex
  * to itself are none. *sides is to be freed with free(). */
 e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e3d_side **sides, size_t *found);
+
+/* Of sides: their vertices and triangles, ends and beside (count, 2), the second triangle -1 for a border, and whether two triangles
+ * run along it in the same direction, so that they have opposite winding. */
+void e3d_unfold_sides(const int32_t *faces, const e3d_side *sides, size_t count, int32_t *ends, int32_t *beside, uint8_t *turned);
+
+/* The cosines of the angles between the triangles at edges, by their normals, as if all were wound alike; 1 where one is missing. */
+void e3d_find_cosines(const double *normals, const int32_t *beside, const uint8_t *turned, size_t count, double *cosines);
 
 /* For each of `count` triangles, whose sides are given, 1 if it belongs to a body that encloses a volume with its fronts outside, -1
  * if with its backs, else 0. */

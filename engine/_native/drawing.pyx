@@ -61,6 +61,16 @@ cdef object taken(void **data, size_t count, object dtype):
     return array
 
 
+cdef object checked_sides(object sides, const int32_t[:, ::1] faces):
+    """The bytes of sides of `SIDE`, of faces that are there."""
+    sides = np.ascontiguousarray(sides, SIDE)
+    columns = sides.view(np.int32).reshape(-1, 5)
+    if len(columns):
+        require(0 <= columns[:, 2].min() and columns[:, 2:4].max() < 3 * faces.shape[0], "sides name faces that are not there")
+        require((columns[:, 3] >= 0).sum() == (columns[:, 4] > 1).sum(), "sides have second triangles if they have two uses")
+    return sides.view(np.uint8)
+
+
 def hide_lines(
     const double[:, ::1] places not None, const double[:, ::1] sheet not None, const int32_t[:, ::1] faces not None,
     const double[::1] eye not None, double thickness, double reach,
@@ -90,7 +100,7 @@ def hide_lines(
     for k in range(4):
         hiders.eye[k] = eye[k]
     lines.places, lines.sheet = &line_places[0, 0, 0], &line_sheet[0, 0, 0]
-    lines.count, lines.least = line_places.shape[0], least
+    lines.count, lines.least, lines.behind = line_places.shape[0], least, NULL
     with nogil:
         status = e3d_hide_lines(&hiders, &lines, threads, &pieces, &count)
     check(status)
@@ -125,6 +135,38 @@ def find_sides(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArray
     return taken(<void **>&sides, count, SIDE)
 
 
+def unfold_sides(const int32_t[:, ::1] faces not None, sides) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.uint8]]:
+    """Return of ``sides``, as of `find_sides`, their vertices (E, 2), their triangles (E, 2), and which two are wound oppositely.
+
+    The second triangle of a border is -1.
+    """
+    cdef const uint8_t[::1] records = checked_sides(sides, faces)
+    cdef size_t count = records.shape[0] // sizeof(e3d_side)
+    ends, beside, turned = np.empty((count, 2), np.int32), np.empty((count, 2), np.int32), np.empty(count, np.uint8)
+    cdef int32_t[:, ::1] end_view = ends
+    cdef int32_t[:, ::1] beside_view = beside
+    cdef uint8_t[::1] turned_view = turned
+    if count:
+        with nogil:
+            e3d_unfold_sides(&faces[0, 0], <const e3d_side *>&records[0], count, &end_view[0, 0], &beside_view[0, 0], &turned_view[0])
+    return ends, beside, turned
+
+
+def find_cosines(const double[:, ::1] normals not None, const int32_t[:, ::1] beside not None,
+                 const uint8_t[::1] turned not None) -> NDArray[np.float64]:
+    """Return the cosines (E,) of the angles between the triangles at edges (E, 2), 1 at borders."""
+    cdef size_t count = beside.shape[0]
+    require(normals.shape[1] == 3 and beside.shape[1] == 2 and <size_t>turned.shape[0] == count, "the arrays of edges do not fit each other")
+    cosines = np.empty(count)
+    cdef double[::1] view = cosines
+    if count:
+        at = np.asarray(beside)
+        require(0 <= at[:, 0].min() and at.max() < normals.shape[0], "edges name faces that are not there")
+        with nogil:
+            e3d_find_cosines(&normals[0, 0], &beside[0, 0], &turned[0], count, &view[0])
+    return cosines
+
+
 def find_enclosing(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, sides) -> NDArray[np.int8]:
     """Return for each triangle (F, 3) whether it belongs to a body that encloses a volume: 1, or -1 if its backs are outside.
 
@@ -132,13 +174,11 @@ def find_enclosing(const double[:, ::1] places not None, const int32_t[:, ::1] f
     """
     require(places.shape[1] == 3, "places have three coordinates")
     check_indices(faces, places.shape[0])
-    cdef const uint8_t[::1] records = np.ascontiguousarray(sides, SIDE).view(np.uint8)
+    cdef const uint8_t[::1] records = checked_sides(sides, faces)
     enclosing = np.zeros(faces.shape[0], np.int8)
     cdef int8_t[::1] view = enclosing
     cdef size_t count = faces.shape[0], side_count = records.shape[0] // sizeof(e3d_side)
     cdef e3d_status status
-    require(not side_count or (0 <= sides["first"].min() and max(sides["first"].max(), sides["second"].max()) < 3 * count),
-            "sides name faces that are not there")
     require(not side_count or (0 <= sides["low"].min() and max(sides["low"].max(), sides["high"].max()) < places.shape[0]),
             "sides name vertices that are not there")
     if count and side_count:

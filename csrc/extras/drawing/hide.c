@@ -137,6 +137,10 @@ static int find_stretches(const void *argument, int32_t number, drw_scratch *scr
     if (!find_sight(job, number, &line))
         return 0;
     *least = line.least;
+    if (job->lines->behind && job->lines->behind[number]) {
+        drw_add(scratch, 0, 1, line.least);
+        return 1;
+    }
     drw_block block = drw_block_of(grid, line.ends, 2);
     line.has_cells = block.rows.first < block.rows.last || block.columns.first < block.columns.last;
     for (int32_t row = block.rows.first; row <= block.rows.last; row++) {

@@ -53,12 +53,12 @@ static int cut(const cutter *by, double ends[6])
     return 1;
 }
 
-static int add(e3d_array *lines, const cutter *by, const double *a, const double *b, int32_t kind, int32_t part)
+static int add(e3d_array *lines, const cutter *by, const double *a, const double *b, int8_t kind, int32_t part, uint8_t is_behind)
 {
     if (!e3d_array_reserve(lines, lines->count + 1, sizeof(drw_line)))
         return 0;
     drw_line *line = (drw_line *)lines->data + lines->count;
-    *line = (drw_line){{a[0], a[1], a[2], b[0], b[1], b[2]}, part, kind};
+    *line = (drw_line){{a[0], a[1], a[2], b[0], b[1], b[2]}, part, kind, is_behind};
     lines->count += cut(by, line->ends) != 0;
     return 1;
 }
@@ -80,6 +80,11 @@ void drw_find_facing(const e3d_edges *edges, const double eye[4], int8_t *facing
         facing[face] = facing_of(edges, face, eye);
 }
 
+uint8_t drw_is_back(const e3d_edges *edges, const int8_t *facing, int32_t face)
+{
+    return facing[face] && facing[face] == -edges->enclosing[face];
+}
+
 static int add_edges(const e3d_edges *edges, const int8_t *facing, const e3d_view *view, const cutter *by, e3d_array *lines)
 {
     for (size_t i = 0; i < edges->count; i++) {
@@ -87,7 +92,8 @@ static int add_edges(const e3d_edges *edges, const int8_t *facing, const e3d_vie
         int is_outline = beside[1] >= 0 && (facing[beside[0]] > 0) != ((facing[beside[1]] > 0) ^ edges->turned[i]);
         if ((is_outline || edges->kinds[i] >= 0) &&
             !add(lines, by, edges->of.places + 3 * (size_t)ends[0], edges->of.places + 3 * (size_t)ends[1],
-                 is_outline ? view->outline : edges->kinds[i], edges->parts[beside[0]]))
+                 is_outline ? view->outline : edges->kinds[i], edges->parts[beside[0]],
+                 view->is_outside && drw_is_back(edges, facing, beside[0]) && beside[1] >= 0 && drw_is_back(edges, facing, beside[1])))
             return 0;
     }
     return 1;
@@ -100,7 +106,7 @@ e3d_status drw_find_lines(const e3d_edges *edges, const int8_t *facing, const e3
     int fits = add_edges(edges, facing, view, &all, lines);
     for (size_t i = 0; fits && i < others->count; i++) {
         const double *ends = others->ends + 6 * i;
-        fits = add(lines, i < others->cut ? &all : &but_first, ends, ends + 3, others->kinds[i], others->parts[i]);
+        fits = add(lines, i < others->cut ? &all : &but_first, ends, ends + 3, others->kinds[i], others->parts[i], 0);
     }
     return fits ? E3D_OK : E3D_OUT_OF_MEMORY;
 }

@@ -19,6 +19,7 @@ typedef struct drawing {
     uint8_t *needless; /* (faces,): as of e3d_hiders */
     e3d_array lines; /* of drw_line */
     double *ends;    /* (lines, 2, 3) */
+    uint8_t *behind; /* (lines,): as of e3d_lines */
     double *paper;   /* (lines, 2, E3D_SHEET) */
     double *corners; /* (vertices, E3D_SHEET) */
     double nothing;  /* millimetres: shorter pieces are none */
@@ -80,10 +81,13 @@ static e3d_status place(drawing *job, const e3d_surface *hiders)
     job->ends = malloc(6 * count * sizeof *job->ends);
     job->paper = malloc(2 * E3D_SHEET * count * sizeof *job->paper);
     job->corners = malloc((hiders->vertex_count + 1) * E3D_SHEET * sizeof *job->corners);
-    if (!job->ends || !job->paper || !job->corners)
+    job->behind = malloc(count);
+    if (!job->ends || !job->paper || !job->corners || !job->behind)
         return E3D_OUT_OF_MEMORY;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         memcpy(job->ends + 6 * i, lines[i].ends, sizeof lines[i].ends);
+        job->behind[i] = lines[i].is_behind;
+    }
     project(job->view, job->ends, 2 * count, job->paper);
     project(job->view, hiders->places, hiders->vertex_count, job->corners);
     return find_nothing(job);
@@ -93,14 +97,14 @@ static e3d_status place(drawing *job, const e3d_surface *hiders)
 static void find_needless(drawing *job, const e3d_edges *edges)
 {
     for (size_t face = 0; face < edges->of.face_count; face++)
-        job->needless[face] = job->facing[face] && job->facing[face] == -edges->enclosing[face];
+        job->needless[face] = drw_is_back(edges, job->facing, (int32_t)face);
 }
 
 static e3d_status hide(drawing *job, const e3d_surface *by, int threads)
 {
     const double *eye = job->view->eye;
     e3d_hiders hiders = {by->places, job->corners, by->faces, by->face_count, {eye[0], eye[1], eye[2], eye[3]}, job->view->thickness, REACH * job->nothing, job->view->is_outside ? job->needless : NULL};
-    e3d_lines lines = {job->ends, job->paper, job->lines.count, job->nothing};
+    e3d_lines lines = {job->ends, job->paper, job->lines.count, job->nothing, job->behind};
     return e3d_hide_lines(&hiders, &lines, threads, &job->pieces, &job->piece_count);
 }
 
@@ -131,7 +135,7 @@ static e3d_status order(drawing *job)
         const double *paper = job->paper + 2 * E3D_SHEET * (size_t)piece->line;
         size_t at = starts[piece->is_hidden * KINDS + line->kind]++;
         cut(paper, paper + E3D_SHEET, piece, job->segments + 4 * at);
-        job->strokes[at] = (e3d_stroke){{0}, line->part, (int8_t)line->kind, (int8_t)piece->is_hidden};
+        job->strokes[at] = (e3d_stroke){{0}, line->part, line->kind, (int8_t)piece->is_hidden};
     }
     return E3D_OK;
 }
@@ -192,6 +196,7 @@ e3d_status e3d_draw_view(const e3d_edges *edges, const e3d_other_lines *others, 
     free(job.needless);
     e3d_array_free(&job.lines);
     free(job.ends);
+    free(job.behind);
     free(job.paper);
     free(job.corners);
     free(job.pieces);

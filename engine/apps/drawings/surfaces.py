@@ -171,7 +171,7 @@ def _joined(placed: list[tuple[MeshEdges, NDArray[np.float64]]]) -> list[NDArray
                 edges.enclosing * _winding(pose),
                 edges.ends + np.int32(vertices),
                 np.where(edges.beside >= 0, edges.beside + np.int32(faces), np.int32(-1)),
-                edges.turned.view(np.uint8),
+                edges.turned,
                 edges.kinds,
                 edges.lines + np.int32(vertices),
                 np.full(len(edges.lines), part, np.int32),

@@ -13,12 +13,12 @@ import functools
 import importlib.util
 
 from ...errors import FileFormatError
+from ..cad.document_scaling import scale_document
 from ..cad.shape_files import read_parts
 from ..reading.documents import Document
 from ..reading.limited_process import in_limited_process
 from ..reading.posed_parts import MAX_REPEATED, counts_of, document_objects
 from ..reading.reader_registry import Reader
-from ..reading.scaling import scale_document
 from ..reading.sources import Source
 from .gltf.gltf import read_gltf
 

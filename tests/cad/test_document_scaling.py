@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.io.reading.scaling import scale_document
+from engine3d.io.cad.document_scaling import scale_document
 from engine3d.io.scenes.scene_loading import scene_from_document
 from engine3d.loaders import load_document
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .documents import Document, NodeRecord
+from ..reading.documents import Document, NodeRecord
 
 
 def scale_document(document: Document, factor: float) -> None:

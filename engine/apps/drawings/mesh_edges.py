@@ -105,9 +105,9 @@ def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
         sharp[candidates] &= _broken(sides[candidates], faces, arrays["_given_normals"][corners])
     kinds = np.where(sharp | (uses > 2), np.int8(CREASE), np.int8(-1))
     kinds[uses == 1] = BORDER
-    edges = (ends, beside, turned, kinds)
     if is_needless is not None:
-        edges = tuple(np.ascontiguousarray(column[~is_needless]) for column in edges)
+        kept = ~is_needless
+        ends, beside, turned, kinds = ends[kept], beside[kept], turned[kept], kinds[kept]
     lines = arrays["lines"]
     lines = np.zeros((0, 2), np.int32) if lines is None else points[lines]
     return MeshEdges(
@@ -115,7 +115,10 @@ def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
         faces,
         sources,
         enclosing,
-        *edges,
+        ends,
+        beside,
+        turned,
+        kinds,
         lines[is_finite[lines].all(axis=1)],
     )
 

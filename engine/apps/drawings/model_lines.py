@@ -31,6 +31,8 @@ class Lines(NamedTuple):
 
 def joined_lines(several: list[Lines]) -> Lines:
     """Return several sets of lines as one."""
+    if len(several) == 1:
+        return several[0]
     return Lines(*(np.concatenate(columns) for columns in zip(*several, strict=True)))
 
 

@@ -50,7 +50,7 @@ class Pieces(NamedTuple):
             kept &= self.kinds == KINDS.index(kind)
         if hidden is not None:
             kept &= self.hidden == hidden
-        return Pieces(*(column[kept] for column in self))
+        return Pieces(self.ends[kept], self.kinds[kept], self.parts[kept], self.hidden[kept])
 
     @property
     def length(self) -> float:

@@ -79,13 +79,14 @@ class Surfaces:
         """
         if self._crossings is None:
             bodies = native.find_bodies(self.faces, len(self.places))
-            found = np.zeros(0, native.CROSSING)
+            ends, faces = np.zeros((0, 2, 3)), np.zeros(0, np.int32)
             if len(bodies) and (bodies != bodies[0]).any():
                 found = native.cross_surfaces(
                     self.places, self.faces, bodies, self.thickness, threads
                 )
-            ends = np.ascontiguousarray(found["ends"]).reshape(-1, 2, 3)
-            self._crossings = lines_of(ends, INTERSECTION, self.parts[found["faces"][:, 0]])
+                ends = np.ascontiguousarray(found["ends"]).reshape(-1, 2, 3)
+                faces = found["faces"][:, 0]
+            self._crossings = lines_of(ends, INTERSECTION, self.parts[faces])
         return self._crossings
 
 

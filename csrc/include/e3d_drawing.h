@@ -25,6 +25,7 @@ typedef struct e3d_hiders {
     double eye[4];        /* the viewer, or the direction to him and 0 */
     double thickness;     /* a line so near a triangle's plane lies on it, in the world's units */
     double reach;         /* triangles reach so far beyond their sides, in the drawing's units */
+    const uint8_t *needless; /* (count,): those that others hide lines for; NULL: none */
 } e3d_hiders;
 
 typedef struct e3d_lines {
@@ -32,6 +33,7 @@ typedef struct e3d_lines {
     const double *sheet;  /* (count, 2, E3D_SHEET) */
     size_t count;         /* below 2^31 */
     double least;         /* shorter pieces belong to their neighbours, in the drawing's units */
+    const uint8_t *behind; /* (count,): those that are known to be hidden; NULL: none */
 } e3d_lines;
 
 /* A stretch of a line, from 0 to 1 on the drawing. */
@@ -58,6 +60,18 @@ typedef struct e3d_side {
  * to itself are none. *sides is to be freed with free(). */
 e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e3d_side **sides, size_t *found);
 
+/* Of sides: their vertices and triangles, ends and beside (count, 2), the second triangle -1 for a border, and whether two triangles
+ * run along it in the same direction, so that they have opposite winding. */
+void e3d_unfold_sides(const int32_t *faces, const e3d_side *sides, size_t count, int32_t *ends, int32_t *beside, uint8_t *turned);
+
+/* The cosines of the angles between the triangles at edges, by their normals, as if all were wound alike; 1 where one is missing. */
+void e3d_find_cosines(const double *normals, const int32_t *beside, const uint8_t *turned, size_t count, double *cosines);
+
+/* For each of `count` triangles, whose sides are given, 1 if it belongs to a body that encloses a volume with its fronts outside, -1
+ * if with its backs, else 0. */
+e3d_status e3d_find_enclosing(const double *places, size_t vertices, const int32_t *faces, size_t count, const e3d_side *sides, size_t side_count,
+                              int8_t *enclosing);
+
 /* The unit normals (count, 3) of triangles; 0 for those whose height is at most `lowest`, or that are not finite. */
 void e3d_find_normals(const double *places, const int32_t *faces, size_t count, double lowest, double *normals);
 
@@ -75,3 +89,55 @@ typedef struct e3d_crossing {
  * other triangle's plane lies on it. *crossings is to be freed with free(). */
 e3d_status e3d_cross_surfaces(const double *places, const int32_t *faces, const int32_t *parts, size_t count, double thickness,
                               int threads, e3d_crossing **crossings, size_t *found);
+
+/* Triangles in the world. */
+typedef struct e3d_surface {
+    const double *places; /* (vertex_count, 3) */
+    const int32_t *faces; /* (face_count, 3) */
+    size_t vertex_count, face_count;
+} e3d_surface;
+
+/* The edges of triangles, and the triangles at their sides. */
+typedef struct e3d_edges {
+    e3d_surface of;
+    const double *normals;        /* (face_count, 3): unit normals, or 0 */
+    const int32_t *parts;         /* (face_count,) */
+    const int8_t *enclosing;      /* (face_count,): as of e3d_find_enclosing */
+    const int32_t *ends, *beside; /* (count, 2): vertices, and triangles, the second of which may be -1 for none */
+    const uint8_t *turned;        /* (count,): whether the two triangles have opposite winding */
+    const int8_t *kinds;          /* (count,): what an edge is even if it is no outline, -1 for nothing */
+    size_t count;
+} e3d_edges;
+
+/* Lines that are no edges. */
+typedef struct e3d_other_lines {
+    const double *ends; /* (count, 2, 3) in the world */
+    const int8_t *kinds;
+    const int32_t *parts;
+    size_t count, cut; /* the first plane of the view cuts only the first `cut` */
+} e3d_other_lines;
+
+enum { E3D_VIEW_PLANES = 4 };
+
+typedef struct e3d_view {
+    double clip_from_world[16], size[2]; /* of the frame, in millimetres */
+    double eye[4];                       /* the viewer, or the direction to him and 0 */
+    double planes[E3D_VIEW_PLANES][4];   /* what is drawn has a x + b y + c z + d >= 0 */
+    size_t plane_count;
+    double thickness; /* as that of e3d_hiders */
+    double nearness;  /* millimetres: lines so near each other are one stroke */
+    int32_t is_parallel;
+    int32_t is_outside; /* whether the viewer is outside of all bodies; the planes cut none of these */
+    int8_t outline; /* the kind of outlines; kinds are at least 0, the most important first */
+} e3d_view;
+
+/* A straight piece of a line on paper: x right, y down, from the frame's upper left corner, in millimetres. */
+typedef struct e3d_stroke {
+    double ends[4];
+    int32_t part;
+    int8_t kind, is_hidden;
+} e3d_stroke;
+
+/* The strokes of a view: visible ones first, by their kinds; each place once. *strokes is to be freed with free(). */
+e3d_status e3d_draw_view(const e3d_edges *edges, const e3d_other_lines *others, const e3d_surface *hiders, const e3d_view *view,
+                         int threads, e3d_stroke **strokes, size_t *count);

@@ -9,7 +9,7 @@ import numpy as np
 
 from e3d cimport E3D_OK, E3D_OUT_OF_MEMORY, e3d_status
 from e3d_drawing cimport *
-from libc.stdint cimport int32_t, uint8_t
+from libc.stdint cimport int8_t, int32_t, uint8_t
 from libc.stdlib cimport free
 from libc.string cimport memcpy
 
@@ -21,6 +21,8 @@ PIECE = np.dtype([("line", np.int32), ("is_hidden", np.int32), ("from", np.float
 SIDE = np.dtype([(name, np.int32) for name in ("low", "high", "first", "second", "uses")])
 #: e3d_crossing
 CROSSING = np.dtype([("faces", np.int32, 2), ("ends", np.float64, 6)])
+#: e3d_stroke
+STROKE = np.dtype([("ends", np.float64, (2, 2)), ("part", np.int32), ("kind", np.int8), ("is_hidden", np.int8)], align=True)
 #: Columns of places on the drawing.
 SHEET = E3D_SHEET
 
@@ -59,6 +61,16 @@ cdef object taken(void **data, size_t count, object dtype):
     return array
 
 
+cdef object checked_sides(object sides, const int32_t[:, ::1] faces):
+    """The bytes of sides of `SIDE`, of faces that are there."""
+    sides = np.ascontiguousarray(sides, SIDE)
+    columns = sides.view(np.int32).reshape(-1, 5)
+    if len(columns):
+        require(0 <= columns[:, 2].min() and columns[:, 2:4].max() < 3 * faces.shape[0], "sides name faces that are not there")
+        require((columns[:, 3] >= 0).sum() == (columns[:, 4] > 1).sum(), "sides have second triangles if they have two uses")
+    return sides.view(np.uint8)
+
+
 def hide_lines(
     const double[:, ::1] places not None, const double[:, ::1] sheet not None, const int32_t[:, ::1] faces not None,
     const double[::1] eye not None, double thickness, double reach,
@@ -84,11 +96,11 @@ def hide_lines(
     hiders.places = &places[0, 0] if places.shape[0] else NULL
     hiders.sheet = &sheet[0, 0] if places.shape[0] else NULL
     hiders.faces = &faces[0, 0] if faces.shape[0] else NULL
-    hiders.count, hiders.thickness, hiders.reach = faces.shape[0], thickness, reach
+    hiders.count, hiders.thickness, hiders.reach, hiders.needless = faces.shape[0], thickness, reach, NULL
     for k in range(4):
         hiders.eye[k] = eye[k]
     lines.places, lines.sheet = &line_places[0, 0, 0], &line_sheet[0, 0, 0]
-    lines.count, lines.least = line_places.shape[0], least
+    lines.count, lines.least, lines.behind = line_places.shape[0], least, NULL
     with nogil:
         status = e3d_hide_lines(&hiders, &lines, threads, &pieces, &count)
     check(status)
@@ -121,6 +133,60 @@ def find_sides(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArray
         status = e3d_find_sides(&faces[0, 0], faces.shape[0], vertices, &sides, &count)
     check(status)
     return taken(<void **>&sides, count, SIDE)
+
+
+def unfold_sides(const int32_t[:, ::1] faces not None, sides) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.uint8]]:
+    """Return of ``sides``, as of `find_sides`, their vertices (E, 2), their triangles (E, 2), and which two are wound oppositely.
+
+    The second triangle of a border is -1.
+    """
+    cdef const uint8_t[::1] records = checked_sides(sides, faces)
+    cdef size_t count = records.shape[0] // sizeof(e3d_side)
+    ends, beside, turned = np.empty((count, 2), np.int32), np.empty((count, 2), np.int32), np.empty(count, np.uint8)
+    cdef int32_t[:, ::1] end_view = ends
+    cdef int32_t[:, ::1] beside_view = beside
+    cdef uint8_t[::1] turned_view = turned
+    if count:
+        with nogil:
+            e3d_unfold_sides(&faces[0, 0], <const e3d_side *>&records[0], count, &end_view[0, 0], &beside_view[0, 0], &turned_view[0])
+    return ends, beside, turned
+
+
+def find_cosines(const double[:, ::1] normals not None, const int32_t[:, ::1] beside not None,
+                 const uint8_t[::1] turned not None) -> NDArray[np.float64]:
+    """Return the cosines (E,) of the angles between the triangles at edges (E, 2), 1 at borders."""
+    cdef size_t count = beside.shape[0]
+    require(normals.shape[1] == 3 and beside.shape[1] == 2 and <size_t>turned.shape[0] == count, "the arrays of edges do not fit each other")
+    cosines = np.empty(count)
+    cdef double[::1] view = cosines
+    if count:
+        at = np.asarray(beside)
+        require(0 <= at[:, 0].min() and at.max() < normals.shape[0], "edges name faces that are not there")
+        with nogil:
+            e3d_find_cosines(&normals[0, 0], &beside[0, 0], &turned[0], count, &view[0])
+    return cosines
+
+
+def find_enclosing(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, sides) -> NDArray[np.int8]:
+    """Return for each triangle (F, 3) whether it belongs to a body that encloses a volume: 1, or -1 if its backs are outside.
+
+    ``sides`` are those that `find_sides` returns.
+    """
+    require(places.shape[1] == 3, "places have three coordinates")
+    check_indices(faces, places.shape[0])
+    cdef const uint8_t[::1] records = checked_sides(sides, faces)
+    enclosing = np.zeros(faces.shape[0], np.int8)
+    cdef int8_t[::1] view = enclosing
+    cdef size_t count = faces.shape[0], side_count = records.shape[0] // sizeof(e3d_side)
+    cdef e3d_status status
+    require(not side_count or (0 <= sides["low"].min() and max(sides["low"].max(), sides["high"].max()) < places.shape[0]),
+            "sides name vertices that are not there")
+    if count and side_count:
+        with nogil:
+            status = e3d_find_enclosing(
+                &places[0, 0], places.shape[0], &faces[0, 0], count, <const e3d_side *>&records[0], side_count, &view[0])
+        check(status)
+    return enclosing
 
 
 def find_normals(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, double lowest) -> NDArray[np.float64]:
@@ -166,5 +232,94 @@ def cross_surfaces(const double[:, ::1] places not None, const int32_t[:, ::1] f
     return taken(<void **>&crossings, count, CROSSING)
 
 
+cdef e3d_surface surface_of(const double[:, ::1] places, const int32_t[:, ::1] faces) except *:
+    cdef e3d_surface made
+    require(places.shape[1] == 3, "places have three coordinates")
+    require(faces.shape[1] == 3, "faces have three vertices")
+    made.places = &places[0, 0] if places.shape[0] else NULL
+    made.faces = &faces[0, 0] if faces.shape[0] else NULL
+    made.vertex_count, made.face_count = places.shape[0], faces.shape[0]
+    return made
+
+
+cdef class Edges:
+    """The edges (E,) of triangles (F, 3) of vertices (V, 3), checked once for all views.
+
+    ``normals`` (F, 3), ``parts`` and ``enclosing`` (F,) are those of the triangles. ``ends``, ``beside`` (E, 2) are an edge's vertices, and
+    the triangles at its sides, -1 for none. ``turned`` (E,): these have opposite winding. ``kinds`` (E,): what an edge is even
+    if it is no outline, -1 for nothing.
+    """
+
+    cdef e3d_edges c
+    cdef tuple kept
+
+    def __init__(
+        self, const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, const double[:, ::1] normals not None,
+        const int32_t[::1] parts not None, const int8_t[::1] enclosing not None, const int32_t[:, ::1] ends not None, const int32_t[:, ::1] beside not None,
+        const uint8_t[::1] turned not None, const int8_t[::1] kinds not None,
+    ):
+        cdef size_t count = ends.shape[0]
+        self.c.of = surface_of(places, faces)
+        check_indices(faces, places.shape[0])
+        require(normals.shape[0] == faces.shape[0] and normals.shape[1] == 3 and parts.shape[0] == faces.shape[0]
+                and enclosing.shape[0] == faces.shape[0], "the arrays of triangles do not fit each other")
+        require(<size_t>beside.shape[0] == count and <size_t>turned.shape[0] == count and <size_t>kinds.shape[0] == count
+                and ends.shape[1] == 2 and beside.shape[1] == 2, "the arrays of edges do not fit each other")
+        if count:
+            of, at = np.asarray(ends), np.asarray(beside)
+            require(0 <= of.min() and of.max() < places.shape[0], "edges name vertices that are not there")
+            require(0 <= at[:, 0].min() and -1 <= at.min() and at.max() < faces.shape[0], "edges name faces that are not there")
+            self.c.normals, self.c.parts, self.c.enclosing = &normals[0, 0], &parts[0], &enclosing[0]
+            self.c.ends, self.c.beside, self.c.turned, self.c.kinds = &ends[0, 0], &beside[0, 0], &turned[0], &kinds[0]
+        self.c.count = count
+        self.kept = places, faces, normals, parts, enclosing, ends, beside, turned, kinds
+
+
+def draw_view(
+    Edges edges not None, const double[:, :, ::1] other_ends not None, const int8_t[::1] other_kinds not None,
+    const int32_t[::1] other_parts not None, size_t cut, const double[:, ::1] places, const int32_t[:, ::1] faces,
+    const double[:, ::1] clip_from_world not None, size, eye, bint is_parallel, bint is_outside, const double[:, ::1] planes not None,
+    double thickness, double nearness, int outline, int threads,
+) -> NDArray[Any]:
+    """Return the strokes (S,) of `STROKE` of a view: of edges and other lines (N, 2, 3), before and behind triangles.
+
+    Triangles (F, 3) of vertices (V, 3) hide, if they are given, else those of the edges.
+    The first plane (K, 4) of the view leaves out what is below it of edges and of the first ``cut`` other lines, the
+    others all that is. ``size``, in millimetres, is that of the frame; ``eye`` the viewer, or the direction to him and 0, who may be outside of
+    all bodies.
+    """
+    cdef e3d_other_lines others
+    cdef e3d_view view
+    cdef e3d_surface hiders = edges.c.of
+    cdef e3d_stroke *strokes = NULL
+    cdef size_t count = 0
+    cdef e3d_status status
+    cdef int k
+    if faces is not None:
+        hiders = surface_of(places, faces)
+        check_indices(faces, places.shape[0])
+    require(other_ends.shape[1] == 2 and other_ends.shape[2] == 3 and other_kinds.shape[0] == other_ends.shape[0]
+            and other_parts.shape[0] == other_ends.shape[0], "the arrays of lines do not fit each other")
+    require(0 < planes.shape[0] <= E3D_VIEW_PLANES and planes.shape[1] == 4, "a view has one plane to four")
+    require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a projection is a matrix of four rows")
+    others.count, others.cut = other_ends.shape[0], cut
+    require(outline >= 0 and (not others.count or np.asarray(other_kinds).min() >= 0), "kinds are at least 0")
+    if others.count:
+        others.ends, others.kinds, others.parts = &other_ends[0, 0, 0], &other_kinds[0], &other_parts[0]
+    memcpy(view.clip_from_world, &clip_from_world[0, 0], sizeof(view.clip_from_world))
+    memcpy(view.planes, &planes[0, 0], 4 * sizeof(double) * planes.shape[0])
+    view.plane_count = planes.shape[0]
+    view.size[0], view.size[1] = size
+    for k in range(4):
+        view.eye[k] = eye[k]
+    view.thickness, view.nearness, view.is_parallel, view.outline = thickness, nearness, is_parallel, outline
+    view.is_outside = is_outside and faces is None
+    with nogil:
+        status = e3d_draw_view(&edges.c, &others, &hiders, &view, threads, &strokes, &count)
+    check(status)
+    return taken(<void **>&strokes, count, STROKE)
+
+
+require(STROKE.itemsize == sizeof(e3d_stroke), "the records differ from the core's")
 require(PIECE.itemsize == sizeof(e3d_piece) and SIDE.itemsize == sizeof(e3d_side) and CROSSING.itemsize == sizeof(e3d_crossing),
         "the records differ from the core's")

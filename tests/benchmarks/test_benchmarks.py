@@ -42,8 +42,9 @@ def test_scripts_load_after_a_plain_installation():
     """Each with what it imports of the others, and of the tests."""
     texts = {path: path.read_text("utf-8") for path in sorted(BENCHMARKS.glob("*.py"))}
     scripts = [str(path) for path, text in texts.items() if '__name__ == "__main__"' in text]
-    if importlib.util.find_spec("imgui_bundle") is None:
-        scripts.remove(str(BENCHMARKS / "user_interface.py"))
+    for package, script in (("imgui_bundle", "user_interface.py"), ("OCP", "line_drawings.py")):
+        if importlib.util.find_spec(package) is None:
+            scripts.remove(str(BENCHMARKS / script))
     assert len(scripts) > 15
     each = PLAINLY.partition("script, *")[0] + "for script in sys.argv[1:]:\n"
     for line in (
@@ -77,6 +78,14 @@ def test_lines():
     assert len(rows) == 25
     for row in rows:
         assert row["dda_ns_per_line"] > 0 and row["bresenham_ns_per_line"] > 0
+
+
+def test_line_drawings():
+    pytest.importorskip("OCP", exc_type=ImportError)
+    rows = report("line_drawings.py", "--repeats", "1", "--part", "bracket")["rows"]
+    assert [row["part"] for row in rows] == ["bracket"] * 4
+    times = ("update_ms", "extract_ms", "first_ms", "view_ms")
+    assert all(row[name] > 0 for row in rows for name in times)
 
 
 def test_batches():

@@ -70,11 +70,11 @@ def test_a_tetrahedron(tmp_path):
     points = [(0, 0, 0), (30, 0, 0), (0, 20, 0), (0, 0, 10)]
     path.write_bytes(faceted(points, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]))
     document = load_document(path)
-    assert (document.format, document.unit) == ("step", "m")
+    assert (document.format, document.unit) == ("step", "mm")
     assert not any(material.is_physical for material in document.tree.materials)
     mesh = whole_mesh(document, Source(str(path), b""), None)
     assert len(mesh.faces) == 4 and mesh.warnings == []
-    assert np.allclose(mesh.bounds, [(0, 0, 0), (0.03, 0.02, 0.01)])
+    assert np.allclose(mesh.bounds, [(0, 0, 0), (30, 20, 10)])
     by_content = Source("a.bin", path.read_bytes())
     assert find_reader(by_content, "mesh").name == "step"
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CELLS_ACROSS = 4096 };
-#define CELLS_AN_ITEM 0.5
+enum { MOST_CELLS_ACROSS = 4096,
+       FEW_CELLS = 2 }; /* blocks of so many across are touched as a whole: it costs less than to ask */
 #define MOST_ENTRIES_AN_ITEM 12
 #define FREE_ENTRIES 65536
 
@@ -29,7 +29,7 @@ void drw_measure(const double *lines, size_t count, double low[2], double high[2
 /* The row or column that holds a coordinate; those outside of the grid are -1 or `count`. */
 static int32_t cell_of(const drw_grid *grid, int axis, double at, int32_t count)
 {
-    double cell = floor((at - grid->low[axis]) * grid->cells_per_unit[axis]);
+    double cell = (at - grid->low[axis]) * grid->cells_per_unit[axis];
     if (!(cell >= 0))
         return -1;
     return cell < count ? (int32_t)cell : count;
@@ -47,18 +47,21 @@ static drw_span cells_between(const drw_grid *grid, int axis, double low, double
     return (drw_span){first < 0 ? 0 : first, last >= count ? count - 1 : last};
 }
 
-drw_span drw_rows(const drw_grid *grid, const double *item, int corners)
+drw_block drw_block_of(const drw_grid *grid, const double *item, int corners)
 {
-    double low = item[1], high = item[1];
-    for (int k = 1; k < corners; k++) {
-        low = least(low, item[2 * k + 1]);
-        high = most(high, item[2 * k + 1]);
-    }
-    return cells_between(grid, 1, low, high, grid->rows);
+    double low[2] = {item[0], item[1]}, high[2] = {item[0], item[1]};
+    for (int k = 1; k < corners; k++)
+        for (int axis = 0; axis < 2; axis++) {
+            low[axis] = least(low[axis], item[2 * k + axis]);
+            high[axis] = most(high[axis], item[2 * k + axis]);
+        }
+    return (drw_block){cells_between(grid, 1, low[1], high[1], grid->rows), cells_between(grid, 0, low[0], high[0], grid->columns)};
 }
 
-drw_span drw_columns(const drw_grid *grid, const double *item, int corners, int32_t row)
+drw_span drw_columns(const drw_grid *grid, const double *item, int corners, drw_block block, int32_t row)
 {
+    if (block.rows.last - block.rows.first < FEW_CELLS && block.columns.last - block.columns.first < FEW_CELLS)
+        return block.columns;
     /* A little more than the row, since its limits are rounded. */
     double height = 1 / grid->cells_per_unit[1], slack = height * 0x1p-20 + grid->margin;
     double top = grid->low[1] + row * height - slack, bottom = grid->low[1] + (row + 1) * height + slack;
@@ -94,9 +97,9 @@ static e3d_status ask(drw_grid *grid, const double *lines, size_t count)
     if (!grid->asked)
         return E3D_OUT_OF_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        drw_span rows = drw_rows(grid, lines + 4 * i, 2);
-        for (int32_t row = rows.first; row <= rows.last; row++) {
-            drw_span columns = drw_columns(grid, lines + 4 * i, 2, row);
+        drw_block block = drw_block_of(grid, lines + 4 * i, 2);
+        for (int32_t row = block.rows.first; row <= block.rows.last; row++) {
+            drw_span columns = drw_columns(grid, lines + 4 * i, 2, block, row);
             if (columns.first <= columns.last)
                 memset(grid->asked + cell_at(grid, row, columns.first), 1, (size_t)(columns.last - columns.first + 1));
         }
@@ -108,9 +111,9 @@ static e3d_status ask(drw_grid *grid, const double *lines, size_t count)
 static size_t count_item(const drw_grid *grid, const double *item, int corners)
 {
     size_t entries = 0;
-    drw_span rows = drw_rows(grid, item, corners);
-    for (int32_t row = rows.first; row <= rows.last; row++) {
-        drw_span columns = drw_columns(grid, item, corners, row);
+    drw_block block = drw_block_of(grid, item, corners);
+    for (int32_t row = block.rows.first; row <= block.rows.last; row++) {
+        drw_span columns = drw_columns(grid, item, corners, block, row);
         for (int32_t column = columns.first; column <= columns.last; column++) {
             size_t cell = cell_at(grid, row, column);
             if (has_list(grid, cell)) {
@@ -131,14 +134,15 @@ e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, 
     if (!grid->items)
         return E3D_OUT_OF_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        const double *item = items.places + 2 * (size_t)items.corners * (size_t)order[i];
-        drw_span rows = drw_rows(grid, item, items.corners);
-        for (int32_t row = rows.first; row <= rows.last; row++) {
-            drw_span columns = drw_columns(grid, item, items.corners, row);
+        int32_t number = order ? order[i] : (int32_t)i;
+        const double *item = items.places + 2 * (size_t)items.corners * (size_t)number;
+        drw_block block = drw_block_of(grid, item, items.corners);
+        for (int32_t row = block.rows.first; row <= block.rows.last; row++) {
+            drw_span columns = drw_columns(grid, item, items.corners, block, row);
             for (int32_t column = columns.first; column <= columns.last; column++) {
                 size_t cell = cell_at(grid, row, column);
                 if (has_list(grid, cell))
-                    grid->items[grid->starts[cell]++] = order[i];
+                    grid->items[grid->starts[cell]++] = number;
             }
         }
     }
@@ -181,9 +185,9 @@ static size_t count_all(drw_grid *grid, drw_items items, int32_t *order, size_t 
 }
 
 e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,
-                         const double low[2], const double high[2], double margin)
+                         const double low[2], const double high[2], double margin, double cells_an_item)
 {
-    double size[2] = {high[0] - low[0], high[1] - low[1]}, wanted = CELLS_AN_ITEM * (double)(*count + 8);
+    double size[2] = {high[0] - low[0], high[1] - low[1]}, wanted = cells_an_item * (double)(*count + 8);
     size_t limit = MOST_ENTRIES_AN_ITEM * *count + FREE_ENTRIES, entries, kept;
     limit = limit < INT32_MAX / 2 ? limit : INT32_MAX / 2;
     *grid = (drw_grid){{low[0], low[1]}, {1, 1}, margin, 1, 1, NULL, NULL, NULL};

@@ -21,6 +21,10 @@ typedef struct drw_span {
     int32_t first, last;
 } drw_span;
 
+typedef struct drw_block {
+    drw_span rows, columns;
+} drw_block;
+
 /* Items or lines: (any number, corners, 2). */
 typedef struct drw_items {
     const double *places;
@@ -30,14 +34,15 @@ typedef struct drw_items {
 /* Finds the box of lines; those whose length is not finite have no pieces, and do not count. */
 void drw_measure(const double *lines, size_t count, double low[2], double high[2]);
 /* Makes a grid over a box for items, of which `order` lists *count. Items reach `margin` beyond their corners. Only cells that
- * some of `lines` touch get lists (all if there are no lines, NULL). Items in no list are taken out of `order`. */
+ * some of `lines` touch get lists (all if there are no lines, NULL). Items in no list are taken out of `order`. There are about
+ * `cells_an_item` cells for each item, fewer if lists become long. */
 e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,
-                         const double low[2], const double high[2], double margin);
-/* Makes the lists, of the same items in any order. */
+                         const double low[2], const double high[2], double margin, double cells_an_item);
+/* Makes the lists, of the same items in any order; without `order`, of items 0 .. count - 1. */
 e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, size_t count);
 void drw_grid_free(drw_grid *grid);
 
-/* The rows that an item touches. */
-drw_span drw_rows(const drw_grid *grid, const double *item, int corners);
-/* The columns that it touches in one of these. */
-drw_span drw_columns(const drw_grid *grid, const double *item, int corners, int32_t row);
+/* The rows and columns of an item's box. */
+drw_block drw_block_of(const drw_grid *grid, const double *item, int corners);
+/* The columns that it touches in a row of its block. */
+drw_span drw_columns(const drw_grid *grid, const double *item, int corners, drw_block block, int32_t row);

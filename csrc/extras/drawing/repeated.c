@@ -8,30 +8,50 @@
 #include "extras/drawing/grid.h"
 #include "extras/drawing/stretches.h"
 
+#define CELLS_A_SEGMENT 0.5
+
 typedef struct repetition {
     const double *segments;
     double tolerance;
     drw_grid grid;
 } repetition;
 
-static double length_of(const double *a) { return sqrt((a[2] - a[0]) * (a[2] - a[0]) + (a[3] - a[1]) * (a[3] - a[1])); }
+static double less(double a, double b) { return b < a ? b : a; }
+static double more(double a, double b) { return b > a ? b : a; }
 
-/* Finds the stretch of segment a along which b lies within the tolerance: all of what they share, or nothing. */
-static int is_repeated(const double *a, const double *b, double tolerance, drw_stretch *within)
+/* A segment as the search needs it. */
+typedef struct stroke {
+    const double *ends;
+    double run, rise, square, length;
+} stroke;
+
+static stroke stroke_of(const double *ends)
 {
-    double run = a[2] - a[0], rise = a[3] - a[1], square = run * run + rise * rise;
-    double s = (run * (b[0] - a[0]) + rise * (b[1] - a[1])) / square, t = (run * (b[2] - a[0]) + rise * (b[3] - a[1])) / square;
-    double from = fmax(fmin(s, t), 0), to = fmin(fmax(s, t), 1);
-    if (!(from < to))
+    stroke made = {ends, ends[2] - ends[0], ends[3] - ends[1], 0, 0};
+    made.square = made.run * made.run + made.rise * made.rise;
+    made.length = sqrt(made.square);
+    return made;
+}
+
+/* Finds the stretch of segment a along which b lies within the tolerance: all of what they share, or nothing. Most pairs are told
+ * apart without a division: beside each other, or both ends of b on one side of a. */
+static int is_repeated(const stroke *a, const double *b, double tolerance, drw_stretch *within)
+{
+    double x[2] = {b[0] - a->ends[0], b[2] - a->ends[0]}, y[2] = {b[1] - a->ends[1], b[3] - a->ends[1]};
+    double along[2] = {a->run * x[0] + a->rise * y[0], a->run * x[1] + a->rise * y[1]};
+    if ((along[0] <= 0 && along[1] <= 0) || (along[0] >= a->square && along[1] >= a->square))
         return 0;
-    double aside[2] = {run * (b[1] - a[1]) - rise * (b[0] - a[0]), run * (b[3] - a[1]) - rise * (b[2] - a[0])};
-    double limit = tolerance * sqrt(square), ends[2] = {from, to};
-    for (int k = 0; k < 2; k++) {
-        double along = (ends[k] - s) / (t - s);
-        if (!(fabs(aside[0] + (aside[1] - aside[0]) * along) <= limit))
+    double aside[2] = {a->run * y[0] - a->rise * x[0], a->run * y[1] - a->rise * x[1]}, limit = tolerance * a->length;
+    if ((aside[0] > limit && aside[1] > limit) || (aside[0] < -limit && aside[1] < -limit))
+        return 0;
+    double s = along[0] / a->square, t = along[1] / a->square;
+    double ends[2] = {more(less(s, t), 0), less(more(s, t), 1)};
+    if (!(ends[0] < ends[1]))
+        return 0;
+    for (int k = 0; k < 2; k++)
+        if (!(fabs(aside[0] + (aside[1] - aside[0]) * ((ends[k] - s) / (t - s))) <= limit))
             return 0;
-    }
-    *within = (drw_stretch){from, to};
+    *within = (drw_stretch){ends[0], ends[1]};
     return 1;
 }
 
@@ -39,20 +59,19 @@ static int find_stretches(const void *argument, int32_t number, drw_scratch *scr
 {
     const repetition *job = argument;
     const drw_grid *grid = &job->grid;
-    const double *own = job->segments + 4 * (size_t)number;
-    double length = length_of(own);
+    const stroke own = stroke_of(job->segments + 4 * (size_t)number);
     drw_stretch within;
-    if (!(length > 0) || !isfinite(length))
+    if (!(own.length > 0) || !isfinite(own.length))
         return 0;
-    *least = fmin(job->tolerance / length, 0.5);
-    drw_span rows = drw_rows(grid, own, 2);
-    for (int32_t row = rows.first; row <= rows.last; row++) {
-        drw_span columns = drw_columns(grid, own, 2, row);
+    *least = less(job->tolerance / own.length, 0.5);
+    drw_block block = drw_block_of(grid, own.ends, 2);
+    for (int32_t row = block.rows.first; row <= block.rows.last; row++) {
+        drw_span columns = drw_columns(grid, own.ends, 2, block, row);
         for (int32_t column = columns.first; column <= columns.last; column++) {
             size_t cell = (size_t)row * (size_t)grid->columns + (size_t)column;
             for (int32_t i = grid->starts[cell]; i < grid->starts[cell + 1]; i++)
                 if (grid->items[i] < number && drw_is_new(scratch, grid->items[i], number) &&
-                    is_repeated(own, job->segments + 4 * (size_t)grid->items[i], job->tolerance, &within) &&
+                    is_repeated(&own, job->segments + 4 * (size_t)grid->items[i], job->tolerance, &within) &&
                     drw_add(scratch, within.from, within.to, *least))
                     return 1;
         }
@@ -73,7 +92,7 @@ e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolera
     drw_items items = {segments, 2};
     size_t kept = count;
     if (status == E3D_OK)
-        status = drw_grid_make(&job.grid, items, order, &kept, NULL, 0, low, high, tolerance);
+        status = drw_grid_make(&job.grid, items, order, &kept, NULL, 0, low, high, tolerance, CELLS_A_SEGMENT);
     if (status == E3D_OK)
         status = drw_grid_fill(&job.grid, items, order, kept);
     if (status == E3D_OK)

@@ -3,7 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fpenv.h"
 #include "e3d_drawing.h"
+
+enum { FEW = 32 };
 
 typedef struct half {
     int32_t high, side;
@@ -22,6 +25,22 @@ static void ends_of(const int32_t *faces, size_t side, int32_t *low, int32_t *hi
     int32_t a = faces[side], b = faces[side % 3 == 2 ? side - 2 : side + 1];
     *low = a < b ? a : b;
     *high = a < b ? b : a;
+}
+
+/* Sorts the few sides of a vertex by insertion. */
+static void sort(half *halves, size_t count)
+{
+    if (count > FEW) {
+        qsort(halves, count, sizeof *halves, by_high);
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        half one = halves[i];
+        size_t at = i;
+        for (; at && by_high(&one, &halves[at - 1]) < 0; at--)
+            halves[at] = halves[at - 1];
+        halves[at] = one;
+    }
 }
 
 /* Lists the sides by their lower vertex: those of vertex v are starts[v] .. starts[v + 1] - 1. */
@@ -68,8 +87,7 @@ e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e
         sort_by_low(faces, 3 * count, vertices, starts, halves);
         for (size_t v = 0; v < vertices; v++) {
             size_t own = starts[v + 1] - starts[v];
-            if (own > 1)
-                qsort(halves + starts[v], own, sizeof *halves, by_high);
+            sort(halves + starts[v], own);
             *found += take(halves + starts[v], own, (int32_t)v, out + *found);
         }
         *sides = out;
@@ -79,4 +97,29 @@ e3d_status e3d_find_sides(const int32_t *faces, size_t count, size_t vertices, e
     free(halves);
     free(out);
     return status;
+}
+
+void e3d_unfold_sides(const int32_t *faces, const e3d_side *sides, size_t count, int32_t *ends, int32_t *beside, uint8_t *turned)
+{
+    for (size_t i = 0; i < count; i++) {
+        const e3d_side *side = &sides[i];
+        int has_two = side->uses > 1;
+        ends[2 * i] = side->low;
+        ends[2 * i + 1] = side->high;
+        beside[2 * i] = side->first / 3;
+        beside[2 * i + 1] = has_two ? side->second / 3 : -1;
+        turned[i] = side->uses == 2 && faces[side->first] == faces[side->second];
+    }
+}
+
+void e3d_find_cosines(const double *normals, const int32_t *beside, const uint8_t *turned, size_t count, double *cosines)
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    for (size_t i = 0; i < count; i++) {
+        const double *a = normals + 3 * (size_t)beside[2 * i], *b = normals + 3 * (size_t)(beside[2 * i + 1] < 0 ? 0 : beside[2 * i + 1]);
+        double cosine = (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+        cosines[i] = beside[2 * i + 1] < 0 ? 1 : turned[i] ? -cosine
+                                                           : cosine;
+    }
+    e3d_fpenv_leave(saved);
 }

@@ -6,7 +6,8 @@
 #include "base/fpenv.h"
 #include "base/pool.h"
 
-enum { LINES_AT_A_TIME = 256,
+enum { FEW = 16, /* stretches are sorted by insertion */
+       LINES_AT_A_TIME = 256,
        MOST_THREADS = 256 };
 
 typedef struct cutting {
@@ -37,11 +38,26 @@ static int by_beginning(const void *a, const void *b)
     return (first->to > second->to) - (first->to < second->to);
 }
 
+static void sort(drw_stretch *all, size_t count)
+{
+    if (count > FEW) {
+        qsort(all, count, sizeof *all, by_beginning);
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        drw_stretch one = all[i];
+        size_t at = i;
+        for (; at && by_beginning(&one, &all[at - 1]) < 0; at--)
+            all[at] = all[at - 1];
+        all[at] = one;
+    }
+}
+
 /* Joins stretches that overlap, or nearly so; leaves out those that count as nothing. Returns how many are left. */
 static size_t join(drw_stretch *all, size_t count, double least)
 {
     size_t joined = 0, kept = 0;
-    qsort(all, count, sizeof *all, by_beginning);
+    sort(all, count);
     for (size_t i = 0; i < count; i++) {
         if (joined && all[i].from <= all[joined - 1].to + least)
             all[joined - 1].to = all[i].to > all[joined - 1].to ? all[i].to : all[joined - 1].to;

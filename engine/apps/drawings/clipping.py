@@ -1,4 +1,4 @@
-"""Clips triangles and lines by planes.
+"""Clips triangles by planes.
 
 In: places in the world, planes as rows of four: what is kept has a x + b y + c z + d >= 0. Out: the
 rest. Every edge that crosses a plane is cut at one point, found from its lower to its higher vertex
@@ -12,10 +12,25 @@ from numpy.typing import NDArray
 
 from ...base import linalg
 
+#: More than the share of its terms by which a sum of a few of them is wrong.
+_ROUNDING = 2.0**-48
+
 
 def _heights(places: NDArray[np.float64], plane: NDArray[np.float64]) -> NDArray[np.float64]:
     heights: NDArray[np.float64] = linalg.dot(places, plane[:3]) + plane[3]
     return heights
+
+
+def are_before(bounds: NDArray[np.float64], planes: NDArray[np.float64]) -> bool:
+    """Return whether a box (2, 3) is surely wholly on the side of planes (K, 4) that is kept."""
+    low, high = bounds.tolist()
+    for *normal, offset in planes.tolist():
+        terms = [(n * a, n * b) for n, a, b in zip(normal, low, high, strict=True)]
+        least = sum(map(min, terms)) + offset
+        size = sum(max(abs(a), abs(b)) for a, b in terms) + abs(offset)
+        if not least > _ROUNDING * size:
+            return False
+    return True
 
 
 def clip_triangles(
@@ -72,23 +87,3 @@ def _cut(
     )
     places = np.concatenate([places, low + (high - low) * share])
     return places, left, np.concatenate([single, double, double])
-
-
-def clip_lines(
-    ends: NDArray[np.float64], planes: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Return what is left of lines (N, 2, 3), and where it came from."""
-    sources = np.arange(len(ends))
-    for plane in planes:
-        heights = _heights(ends, plane)
-        inside = heights >= 0.0
-        if inside.all():
-            continue
-        kept = np.flatnonzero(inside.any(axis=1))
-        ends, sources, heights, inside = ends[kept], sources[kept], heights[kept], inside[kept]
-        rows = np.flatnonzero(~inside.all(axis=1))
-        outer = np.argmin(inside[rows], axis=1)
-        a, b = ends[rows, 1 - outer], ends[rows, outer]
-        at_a, at_b = heights[rows, 1 - outer], heights[rows, outer]
-        ends[rows, outer] = a + (b - a) * (at_a / (at_a - at_b))[:, np.newaxis]
-    return ends, sources

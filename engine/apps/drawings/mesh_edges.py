@@ -7,7 +7,7 @@ same place are one point, as for creases.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from ..._native import drawing as native
 from ..._native import loaders
 from ...base import linalg
-from ...model.geometry.derived import arrays_of
-from ...model.geometry.mesh import Mesh
+from .line_kinds import BORDER, CREASE
 
 #: Triangles lower than this share of the largest coordinate have no direction of their own:
 #: coordinates are rounded to 24 bits.
@@ -38,14 +37,18 @@ class MeshEdges(NamedTuple):
         Finite triangles of three points, each once.
     sources : (F,) int64
         Their numbers in ``mesh.faces``.
+    enclosing : (F,) int8
+        1 for a triangle of a body that encloses a volume with its fronts outside, -1 with its
+        backs, else 0.
     ends : (E, 2) int32
         The points of each edge.
     beside : (E, 2) int32
         The triangles at its sides, -1 for none.
-    turned : (E,) bool
+    turned : (E,) uint8
         Whether these have opposite winding.
-    creases, borders : (E,) bool
-        A border is an edge of one triangle; a crease is sharp, or an edge of more than two.
+    kinds : (E,) int8
+        `BORDER` for an edge of one triangle, `CREASE` for a sharp one or one of more than two,
+        -1 for one that is a line only as an outline.
     lines : (L, 2) int32
         The mesh's own lines.
     """
@@ -53,26 +56,26 @@ class MeshEdges(NamedTuple):
     positions: NDArray[np.float64]
     faces: NDArray[np.int32]
     sources: NDArray[np.int64]
+    enclosing: NDArray[np.int8]
     ends: NDArray[np.int32]
     beside: NDArray[np.int32]
-    turned: NDArray[np.bool_]
-    creases: NDArray[np.bool_]
-    borders: NDArray[np.bool_]
+    turned: NDArray[np.uint8]
+    kinds: NDArray[np.int8]
     lines: NDArray[np.int32]
 
 
 @np.errstate(all="ignore")
-def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
+def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
     """Return the triangles and edges of a mesh.
 
     Parameters
     ----------
-    mesh : Mesh
+    arrays : dict
+        Those of a mesh, as `arrays_of` returns them.
     crease_angle : float
         Radians: triangles that meet at more than this angle have a crease between them, unless the
         mesh has normals of its own that do not break there.
     """
-    arrays = arrays_of(mesh)
     points, first = loaders.number_rows(arrays["positions"].view(np.uint32), True)
     positions = arrays["positions"][first].astype(np.float64)
     is_finite = np.isfinite(positions).all(axis=1)
@@ -84,37 +87,38 @@ def mesh_edges(mesh: Mesh, crease_angle: float) -> MeshEdges:
         faces, sources = np.ascontiguousarray(faces[needed]), sources[needed]
         normals, is_flat = normals[needed], is_flat[needed]
     sides = native.find_sides(faces, len(positions))
-    ends = np.stack([sides["low"], sides["high"]], axis=1)
-    beside = np.stack([sides["first"] // 3, np.where(sides["uses"] > 1, sides["second"] // 3, -1)])
-    beside = np.ascontiguousarray(beside.T, np.int32)
-    borders = sides["uses"] == 1
-    creases = sides["uses"] > 2
-    pairs = np.flatnonzero(sides["uses"] == 2)
-    is_needless = _see_through_flat_faces(sides, beside, faces, positions, is_flat)
-    turned = np.zeros(len(sides), bool)
-    turned[pairs] = _turned(sides[pairs], faces)
-    cosines = linalg.dot(normals[beside[pairs, 0]], normals[beside[pairs, 1]])
-    cosines = np.where(turned[pairs], -cosines, cosines)
-    sharp = cosines < float(linalg.cos(crease_angle))
-    sharp &= ~is_flat[beside[pairs]].any(axis=1)
+    ends, beside, turned = native.unfold_sides(faces, sides)
+    enclosing = native.find_enclosing(positions, faces, sides)
+    uses = np.ascontiguousarray(sides["uses"])
+    is_needless = None
+    if is_flat.any():
+        is_needless = _see_through_flat_faces(sides, beside, faces, positions, is_flat)
+    sharp = native.find_cosines(normals, beside, turned) < float(linalg.cos(crease_angle))
+    sharp &= uses == 2
+    if is_needless is not None:
+        sharp &= ~is_flat[beside].any(axis=1)
+    candidates = np.flatnonzero(sharp)
     if arrays["edge_visible"] is not None:
-        sharp &= _shown(sides[pairs], arrays["edge_visible"][sources])
+        sharp[candidates] &= _shown(sides[candidates], arrays["edge_visible"][sources])
     if arrays["_given_normals"] is not None:
         corners = arrays["faces"][sources].reshape(-1)
-        sharp &= _broken(sides[pairs], faces, arrays["_given_normals"][corners])
-    creases[pairs] = sharp
+        sharp[candidates] &= _broken(sides[candidates], faces, arrays["_given_normals"][corners])
+    kinds = np.where(sharp | (uses > 2), np.int8(CREASE), np.int8(-1))
+    kinds[uses == 1] = BORDER
+    if is_needless is not None:
+        kept = ~is_needless
+        ends, beside, turned, kinds = ends[kept], beside[kept], turned[kept], kinds[kept]
     lines = arrays["lines"]
     lines = np.zeros((0, 2), np.int32) if lines is None else points[lines]
-    kept = ~is_needless
     return MeshEdges(
         positions,
         faces,
         sources,
-        ends[kept],
-        beside[kept],
-        turned[kept],
-        creases[kept],
-        borders[kept],
+        enclosing,
+        ends,
+        beside,
+        turned,
+        kinds,
         lines[is_finite[lines].all(axis=1)],
     )
 
@@ -132,13 +136,18 @@ def _sound_faces(
     faces: NDArray[np.int32], is_finite: NDArray[np.bool_]
 ) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     """Return the finite triangles of three points, each once, and their numbers."""
-    ordered = np.sort(faces, axis=1)
-    sound = is_finite[faces].all(axis=1) & (np.diff(ordered, axis=1) != 0).all(axis=1)
-    kept = np.flatnonzero(sound)
-    rows = np.ascontiguousarray(ordered[kept])
+    a, b, c = np.ascontiguousarray(faces.T)
+    kept = np.flatnonzero(
+        (a != b) & (b != c) & (c != a) & is_finite[a] & is_finite[b] & is_finite[c]
+    )
+    if len(kept) < len(faces):
+        faces, a, b, c = faces[kept], a[kept], b[kept], c[kept]
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    rows = np.stack([low, a ^ b ^ c ^ low ^ high, high], axis=1)
     if loaders.rows_repeat(rows.view(np.uint32), False):
-        kept = kept[loaders.number_rows(rows.view(np.uint32), False)[1]]
-    return np.ascontiguousarray(faces[kept]), kept
+        once = loaders.number_rows(rows.view(np.uint32), False)[1]
+        faces, kept = faces[once], kept[once]
+    return np.ascontiguousarray(faces), kept
 
 
 def _needed_faces(
@@ -159,12 +168,6 @@ def _needed_faces(
 def _following(sides: NDArray[np.int32]) -> NDArray[np.int32]:
     """Return the corners at which sides 3 f + k end."""
     return sides + np.where(sides % 3 == 2, -2, 1)
-
-
-def _turned(sides: NDArray[np.void], faces: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """Return which edges both of their triangles run through in the same direction."""
-    corners = faces.reshape(-1)
-    return corners[sides["first"]] == corners[sides["second"]]
 
 
 def _shown(sides: NDArray[np.void], edge_visible: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -222,7 +225,12 @@ def _see_through_flat_faces(
     pair = beside[edges]
     through[own] = np.where(pair[:, 0] == own, pair[:, 1], pair[:, 0])
     needless[edges] = sides["uses"][edges] == 2
+    own = beside[:, 0].copy()
     for _ in range(_FLAT_STEPS):
         kept = beside >= 0
         beside[kept] = through[beside[kept]]
+    # Where nothing is behind a flat triangle, the other one comes first, or it stays itself.
+    open_ones = np.flatnonzero(beside[:, 0] < 0)
+    beside[open_ones] = beside[open_ones, ::-1]
+    beside[:, 0] = np.where(beside[:, 0] < 0, own, beside[:, 0])
     return needless

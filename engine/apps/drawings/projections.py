@@ -37,12 +37,11 @@ class Projection(NamedTuple):
 
     def eye(self) -> NDArray[np.float64]:
         """Return the viewer's position and 1, or the direction to him and 0, up to a factor."""
-        x, y, depth, w = self.clip_from_world
-        rows = np.stack([x, y, w])
-        columns = [np.delete(rows, k, axis=1) for k in range(4)]
-        signs = (1.0, -1.0, 1.0, -1.0)
-        eye = np.array([s * _determinant(c) for s, c in zip(signs, columns, strict=True)])
-        eye = eye / np.abs(eye).max()
+        x, y, depth, w = self.clip_from_world.tolist()
+        cofactors = (_determinant(*(row[:k] + row[k + 1 :] for row in (x, y, w))) for k in range(4))
+        signed = [-one if k % 2 else one for k, one in enumerate(cofactors)]
+        largest = max(map(abs, signed))
+        eye = np.array(signed) / largest
         if self.is_parallel:
             eye[3] = 0.0
             return eye if float(linalg.dot(depth[:3], eye[:3])) < 0.0 else -eye
@@ -67,22 +66,13 @@ class Projection(NamedTuple):
             found.append(least)
         return np.stack(found)
 
-    def sides(self) -> NDArray[np.float64]:
-        """Return the planes (4, 4) of the frame's sides."""
-        x, y, _, w = self.clip_from_world
-        return np.stack([w + x, w - x, w + y, w - y])
 
-    def scale_at(self, inverse_w: NDArray[np.float64]) -> float:
-        """Return the millimetres per world unit at the middle one of places' 1 / w."""
-        if not inverse_w.size:
-            return 1.0
-        rows = linalg.length(self.clip_from_world[:2, :3])
-        usual = float(np.partition(inverse_w, inverse_w.size // 2, axis=None)[inverse_w.size // 2])
-        return 0.5 * usual * float(np.maximum(rows[0] * self.size[0], rows[1] * self.size[1]))
-
-
-def _determinant(m: NDArray[np.float64]) -> float:
-    return float(linalg.dot(m[0], linalg.cross(m[1], m[2])))
+def _determinant(a: list[float], b: list[float], c: list[float]) -> float:
+    return (
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )
 
 
 def projection_of(

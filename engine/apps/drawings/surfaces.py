@@ -7,22 +7,38 @@ node or one of its instances. What cannot be drawn is named.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..._native import drawing as native
 from ...base import linalg
+from ...model.geometry.derived import arrays_of
 from ...model.geometry.mesh import Mesh
 from ...model.scene.instances import InstancedMesh, instance_matrices
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...model.scene.shown import placing_pose, shown_object
-from .mesh_edges import MeshEdges, mesh_edges
+from .line_kinds import INTERSECTION, LINE
+from .mesh_edges import MeshEdges, face_normals, mesh_edges
+from .model_lines import Lines, lines_of
+
+#: What is within this share of the largest coordinate from a plane lies on it. Coordinates are
+#: rounded to 24 bits.
+_THICKNESS = 2.0**-21
 
 
-class Surfaces(NamedTuple):
-    """Triangles and edges in the world.
+class Surfaces:
+    """Triangles and edges in the world, prepared for any number of views.
+
+    Parameters
+    ----------
+    placed : list of (MeshEdges, (4, 4) float64)
+        Each part's triangles and edges, and its pose.
+    names : list of str
+        Of the parts.
 
     Attributes
     ----------
@@ -30,34 +46,62 @@ class Surfaces(NamedTuple):
     faces : (F, 3) int32
     parts : (F,) int32
         The part of each triangle.
-    ends, beside : (E, 2) int32
-        The vertices of each edge, and the triangles at its sides, -1 for none.
-    turned, creases, borders : (E,) bool
-        As in `MeshEdges`.
-    lines : (L, 2) int32
-    line_parts : (L,) int32
+    edges : native.Edges
+        Those of the triangles.
+    lines : Lines
+        The model's own lines.
+    bounds : (2, 3) float64
+        The box of all places.
+    thickness : float
+        World units: what is so near a triangle's plane lies on it.
     names : list of str
-        Of the parts.
     """
 
-    places: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    parts: NDArray[np.int32]
-    ends: NDArray[np.int32]
-    beside: NDArray[np.int32]
-    turned: NDArray[np.bool_]
-    creases: NDArray[np.bool_]
-    borders: NDArray[np.bool_]
-    lines: NDArray[np.int32]
-    line_parts: NDArray[np.int32]
-    names: list[str]
+    def __init__(
+        self, placed: list[tuple[MeshEdges, NDArray[np.float64]]], names: list[str]
+    ) -> None:
+        self.names = names
+        joined = _joined(placed)
+        self.places, self.faces, self.parts, enclosing, *edges, lines, line_parts = joined
+        normals, _ = face_normals(self.places, self.faces)
+        self.edges = native.Edges(self.places, self.faces, normals, self.parts, enclosing, *edges)
+        self.lines = lines_of(self.places[lines], LINE, line_parts)
+        self.bounds = np.zeros((2, 3))
+        if len(self.places):
+            self.bounds = np.stack([self.places.min(axis=0), self.places.max(axis=0)])
+        self.thickness = _THICKNESS * float(np.abs(self.bounds).max())
+        self._crossings: Lines | None = None
+
+    def intersections(self, threads: int) -> Lines:
+        """Return the lines in which bodies cross; each belongs to the part of its first triangle.
+
+        Bodies are parts, or what hangs together within one.
+        """
+        if self._crossings is None:
+            bodies = native.find_bodies(self.faces, len(self.places))
+            ends, faces = np.zeros((0, 2, 3)), np.zeros(0, np.int32)
+            if len(bodies) and (bodies != bodies[0]).any():
+                found = native.cross_surfaces(
+                    self.places, self.faces, bodies, self.thickness, threads
+                )
+                ends = np.ascontiguousarray(found["ends"]).reshape(-1, 2, 3)
+                faces = found["faces"][:, 0]
+            self._crossings = lines_of(ends, INTERSECTION, self.parts[faces])
+        return self._crossings
 
 
+#: The surfaces that were made last of what begins with a mesh, and what they were made of.
+_known: WeakKeyDictionary[Mesh, tuple[list[Any], Surfaces]] = WeakKeyDictionary()
+
+
+@np.errstate(all="ignore")
 def surfaces_of(scene: Scene, crease_angle: float) -> tuple[Surfaces, list[str]]:
-    """Return what a scene shows, and a sentence for each node that is left out in part."""
+    """Return what a scene shows, and a sentence for each node that is left out in part.
+
+    Surfaces are kept as long as their first mesh, and made again once anything has changed.
+    """
     scene.data.update()
-    known: dict[int, MeshEdges] = {}
-    placed: list[tuple[MeshEdges, NDArray[np.float64]]] = []
+    meshes: list[tuple[Mesh, dict[str, Any], NDArray[np.float64]]] = []
     names: list[str] = []
     omitted: list[str] = []
     for node in scene.nodes:
@@ -67,12 +111,43 @@ def surfaces_of(scene: Scene, crease_angle: float) -> tuple[Surfaces, list[str]]
             continue
         if mesh.points is not None and len(mesh.points):
             omitted.append(f"{node.name or 'a node'}: a line drawing has no points")
-        if id(mesh) not in known:
-            known[id(mesh)] = mesh_edges(mesh, crease_angle)
+        arrays = arrays_of(mesh)
         for number, pose in enumerate(_poses(node, thing)):
-            placed.append((known[id(mesh)], pose))
+            meshes.append((mesh, arrays, pose))
             names.append(node.name if mesh is thing else f"{node.name} {number}")
-    return _joined(placed, names), omitted
+    if not meshes:
+        return Surfaces([], []), omitted
+    first = meshes[0][0]
+    made_of = [crease_angle, names, *((arrays, pose) for _, arrays, pose in meshes)]
+    kept, surfaces = _known.get(first, ([], None))
+    if surfaces is None or not _is_same(kept, made_of):
+        surfaces = _surfaces(meshes, names, crease_angle)
+        _known[first] = made_of, surfaces
+    return surfaces, omitted
+
+
+def _is_same(one: list[Any], other: list[Any]) -> bool:
+    """Return whether surfaces are made of the same arrays, at the same poses."""
+    if len(one) != len(other) or one[:2] != other[:2]:
+        return False
+    return all(
+        a.keys() == b.keys()
+        and all(a[name] is b[name] for name in a)
+        and (pose == other_pose).all()
+        for (a, pose), (b, other_pose) in zip(one[2:], other[2:], strict=True)
+    )
+
+
+def _surfaces(
+    meshes: list[tuple[Mesh, dict[str, Any], NDArray[np.float64]]],
+    names: list[str],
+    crease_angle: float,
+) -> Surfaces:
+    known: dict[int, MeshEdges] = {}
+    for mesh, arrays, _ in meshes:
+        if id(mesh) not in known:
+            known[id(mesh)] = mesh_edges(arrays, crease_angle)
+    return Surfaces([(known[id(mesh)], pose) for mesh, _, pose in meshes], names)
 
 
 def _poses(node: Node, thing: Any) -> Iterator[NDArray[np.float64]]:
@@ -84,7 +159,8 @@ def _poses(node: Node, thing: Any) -> Iterator[NDArray[np.float64]]:
         yield pose
 
 
-def _joined(placed: list[tuple[MeshEdges, NDArray[np.float64]]], names: list[str]) -> Surfaces:
+def _joined(placed: list[tuple[MeshEdges, NDArray[np.float64]]]) -> list[NDArray[Any]]:
+    """Return the arrays of all parts as one each, in the world."""
     rows = [_NOTHING]
     vertices = faces = 0
     for part, (edges, pose) in enumerate(placed):
@@ -93,17 +169,23 @@ def _joined(placed: list[tuple[MeshEdges, NDArray[np.float64]]], names: list[str
                 linalg.transform_points(pose, edges.positions),
                 edges.faces + np.int32(vertices),
                 np.full(len(edges.faces), part, np.int32),
+                edges.enclosing * _winding(pose),
                 edges.ends + np.int32(vertices),
                 np.where(edges.beside >= 0, edges.beside + np.int32(faces), np.int32(-1)),
                 edges.turned,
-                edges.creases,
-                edges.borders,
+                edges.kinds,
                 edges.lines + np.int32(vertices),
                 np.full(len(edges.lines), part, np.int32),
             )
         )
         vertices, faces = vertices + len(edges.positions), faces + len(edges.faces)
-    return Surfaces(*map(_together, zip(*rows, strict=True)), names)
+    return list(map(_together, zip(*rows, strict=True)))
+
+
+def _winding(pose: NDArray[np.float64]) -> np.int8:
+    """Return -1 for a pose that mirrors, 0 for one that makes all flat, else 1."""
+    x, y, z = pose[:3, :3]
+    return np.int8(np.sign(linalg.dot(x, linalg.cross(y, z))))
 
 
 def _together(rows: tuple[NDArray[Any], ...]) -> NDArray[Any]:
@@ -112,9 +194,9 @@ def _together(rows: tuple[NDArray[Any], ...]) -> NDArray[Any]:
 
 #: The columns of no part at all.
 _NONE, _NO_PAIRS = np.zeros(0, np.int32), np.zeros((0, 2), np.int32)
-_FLAGS = np.zeros(0, bool)
 _NOTHING: tuple[NDArray[Any], ...] = (
     np.zeros((0, 3)),
     np.zeros((0, 3), np.int32),
-    *(_NONE, _NO_PAIRS, _NO_PAIRS, _FLAGS, _FLAGS, _FLAGS, _NO_PAIRS, _NONE),
+    *(_NONE, np.zeros(0, np.int8), _NO_PAIRS, _NO_PAIRS),
+    *(np.zeros(0, np.uint8), np.zeros(0, np.int8), _NO_PAIRS, _NONE),
 )

@@ -2,9 +2,9 @@
 
 In: the bytes of a file. Out: a `Document` of triangles that follow its curved surfaces closely. The
 packages, which include Open CASCADE, run in a separate process, see `limited_process`. cascadio
-converts STEP and IGES to glTF: the tree of parts, their names and colours; coordinates are metres.
-Where it is missing, and for BREP, cadquery-ocp reads files; coordinates are millimetres, and the
-edges of the model are known. +Z is up.
+converts STEP and IGES to glTF: the tree of parts, their names and colours. Where it is missing, and
+for BREP, cadquery-ocp reads files, and the edges of the model are known. Coordinates are
+millimetres, whatever unit a file has; +Z is up.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import importlib.util
 
 from ...base.optional_packages import needed
 from ...errors import FileFormatError
+from ..cad.document_scaling import scale_document
 from ..cad.shape_files import read_parts
 from ..reading.documents import Document
 from ..reading.limited_process import in_limited_process
@@ -32,6 +33,8 @@ _BREP = (
     b"CASCADE Topology",
     b"Open CASCADE Topology",
 )
+# In a metre, the unit of glTF.
+_MILLIMETRES = 1000.0
 # Open CASCADE needs several times the memory and time of other readers; its limits scale by this.
 _SIZE_FACTOR = 8
 # And so much counts besides: the smallest file of a curved part needs more than limits allow.
@@ -59,7 +62,8 @@ def read_step(source: Source, split: bool = False, kind: str = "step") -> Docume
     for material in document.tree.materials if document.tree is not None else ():
         # Only colours come from the file; metallic and roughness are the converter's defaults.
         material.metallic = material.roughness = None
-    document.format, document.unit = kind, "m"
+    document.format, document.unit = kind, "mm"
+    scale_document(document, _MILLIMETRES)
     return document
 
 

@@ -1,0 +1,122 @@
+"""Line drawings beside Open CASCADE's PolyAlgo: milliseconds a view of the same triangles.
+
+In:  the ten parts of tests/drawings/, modelled and tessellated with cadquery-ocp.
+Out: a table, or with --json one object: what was run where, and a row a part and view.
+
+Of Open CASCADE, `update` is `Load`, `Projector` and `Update`, `extract` the lines as shapes. Of
+engine3d, `first` is the drawing of a new mesh, `view` another drawing of a scene that was drawn
+before. All is processor time of one thread, the least of the repetitions, which take turns.
+"""
+
+import argparse
+import json
+import platform
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import engine3d as e3d
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "tests"))
+from drawings import occt_parts as occt
+from OCP.HLRBRep import HLRBRep_PolyAlgo, HLRBRep_PolyHLRToShape
+
+#: Millimetres: the frame, which holds every part, and the tessellation's deviation.
+WIDTH, DEFLECTION = 200.0, 0.05
+#: The columns of times.
+NAMES = "update_ms", "extract_ms", "first_ms", "view_ms"
+
+
+def camera_of(view):
+    toward, across = (np.array(way, float) for way in occt.VIEWS[view])
+    toward /= np.linalg.norm(toward)
+    across -= toward * (across @ toward)
+    across /= np.linalg.norm(across)
+    pose = np.eye(4)
+    pose[:3, :3] = np.stack([across, np.cross(toward, across), toward], axis=1)
+    pose[:3, 3] = toward * 500.0
+    return e3d.OrthographicCamera(WIDTH / 2, xmag=WIDTH / 2, znear=1.0, zfar=1000.0), pose
+
+
+def draw(thing, view):
+    """Return the seconds that a drawing takes, with hidden lines and without intersections."""
+    camera = camera_of(view)
+    start = time.process_time()
+    e3d.drawings.line_drawing(
+        thing, camera, size=(1000, 1000), scale=1.0, intersections=False, threads=1
+    )
+    return time.process_time() - start
+
+
+def draw_with_occt(shape, view):
+    """Return the seconds until the lines are found, and until they are shapes."""
+    projector = occt.projector(view)
+    start = time.process_time()
+    algorithm = HLRBRep_PolyAlgo()
+    algorithm.Load(shape)
+    algorithm.Projector(projector)
+    algorithm.Update()
+    found = time.process_time()
+    lines = HLRBRep_PolyHLRToShape()
+    lines.Update(algorithm)
+    for kind in ("VCompound", "OutLineVCompound", "HCompound", "OutLineHCompound"):
+        getattr(lines, kind)()
+    return found - start, time.process_time() - found
+
+
+def measure(parts, repeats):
+    """Yield one row a part and view: milliseconds of each."""
+    for part in parts:
+        shape = part()
+        positions, faces = occt.tessellate(shape, DEFLECTION)
+        for view in occt.VIEWS:
+            times = []
+            for _ in range(repeats):
+                mesh, scene = e3d.Mesh(positions, faces), e3d.Scene()
+                first = draw(mesh, view)
+                scene.add(mesh)
+                draw(scene, view)
+                again = min(draw(scene, view) for _ in range(3))
+                times.append((*draw_with_occt(shape, view), first, again))
+            least = 1e3 * np.array(times).min(axis=0)
+            row = dict(zip(NAMES, least.tolist(), strict=True))
+            yield {"part": part.__name__, "view": view, "triangles": len(faces), **row}
+
+
+def print_table(rows):
+    print("                               Open CASCADE            engine3d       times by view")
+    print("part      view  triangles   update  extract    first     view   update      all")
+    ratios = []
+    for row in rows:
+        *occt_times, first, view = (row[name] for name in NAMES)
+        ratios.append((occt_times[0] / view, sum(occt_times) / view, sum(occt_times) / first))
+        figures = *occt_times, first, view, *ratios[-1][:2]
+        cells = "".join(f"{figure:9.2f}" for figure in figures)
+        print(f"{row['part']:<9} {row['view']:<6} {row['triangles']:>8}{cells}", flush=True)
+    update, whole, first = np.exp(np.log(ratios).mean(axis=0))
+    print(
+        f"\nA view of engine3d is {update:.2f} times as fast as an update and {whole:.2f} times as "
+        f"update and extraction, a first drawing {first:.2f} times (geometric means)"
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Compare line drawings with Open CASCADE's.")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("--repeats", type=int, default=9, help="repetitions (default: 9)")
+    parser.add_argument("--part", action="append", help="only this part; may be repeated")
+    arguments = parser.parse_args()
+    parts = [one for one in occt.PARTS if not arguments.part or one.__name__ in arguments.part]
+    rows = measure(parts, max(arguments.repeats, 1))
+    if not arguments.json:
+        print_table(rows)
+        return
+    machine = {"machine": platform.machine(), "python": platform.python_version()}
+    json.dump({"engine3d": e3d.__version__, **machine, "rows": list(rows)}, sys.stdout)
+    print()
+
+
+if __name__ == "__main__":
+    main()

@@ -48,13 +48,47 @@ static void kernel_transform(const muj_projection *projection, const float *posi
     }
 }
 
-/* The triangles that surely cover no sample of the pixels that count, along an axis. */
-static ALWAYS_INLINE vmask misses(const muj_choice *choice, int axis, const vi32 v[3])
+/* The box of triangles along an axis, in 1/256 pixel. */
+typedef struct boxes {
+    vi32 low, high;
+} boxes;
+
+static ALWAYS_INLINE boxes boxes_of(const vi32 v[3])
 {
-    vi32 low = v_mini(v_mini(v[0], v[1]), v[2]), high = v_maxi(v_maxi(v[0], v[1]), v[2]);
-    low = v_sra(v_addi(low, v_seti(choice->first_sample - 1)), 8);
-    high = v_sra(v_subi(high, v_seti(choice->first_sample)), 8);
-    return v_gti(v_maxi(low, v_seti(choice->low[axis])), v_mini(high, v_seti(choice->high[axis])));
+    return (boxes){v_mini(v_mini(v[0], v[1]), v[2]), v_maxi(v_maxi(v[0], v[1]), v[2])};
+}
+
+/* The pixels whose sample, `at` 1/256 pixel from where they begin, lies in the boxes. */
+static ALWAYS_INLINE boxes pixels_in(boxes in, int32_t at)
+{
+    return (boxes){v_sra(v_addi(in.low, v_seti(255 - at)), 8), v_sra(v_subi(in.high, v_seti(at)), 8)};
+}
+
+/* Whether none of them counts. */
+static ALWAYS_INLINE vmask none_of(const muj_choice *choice, int axis, boxes in)
+{
+    return v_gti(v_maxi(in.low, v_seti(choice->low[axis])), v_mini(in.high, v_seti(choice->high[axis])));
+}
+
+/* The triangles that don't have a point inside or on an edge. They are small. */
+static ALWAYS_INLINE vmask excludes(const vi32 x[3], const vi32 y[3], vi32 px, vi32 py)
+{
+    vi32 all = v_seti(0), none = v_seti(0);
+    for (int k = 0; k < 3; k++) {
+        int q = (k + 1) % 3;
+        vi32 edge = v_subi(v_muli(v_subi(x[q], x[k]), v_subi(py, y[k])), v_muli(v_subi(y[q], y[k]), v_subi(px, x[k])));
+        all = v_ori(all, edge), none = v_ori(none, v_subi(v_seti(0), edge));
+    }
+    return v_mand(v_negi(all), v_negi(none));
+}
+
+/* The triangles that surely cover no sample number `s`: of those with one of them in their box, the edges tell. */
+static ALWAYS_INLINE vmask misses(const muj_choice *choice, int s, const vi32 x[3], const vi32 y[3])
+{
+    boxes columns = pixels_in(boxes_of(x), choice->at[0][s]), rows = pixels_in(boxes_of(y), choice->at[1][s]);
+    vmask one = v_mand(v_eqi(columns.low, columns.high), v_eqi(rows.low, rows.high));
+    vi32 px = v_addi(v_shl(columns.low, 8), v_seti(choice->at[0][s])), py = v_addi(v_shl(rows.low, 8), v_seti(choice->at[1][s]));
+    return v_mor(v_mor(none_of(choice, 0, columns), none_of(choice, 1, rows)), v_mand(one, excludes(x, y, px, py)));
 }
 
 /* The triangles that surely show the side that is culled: rounding errors don't change the sign of their area. */
@@ -73,17 +107,21 @@ static int32_t kernel_choose(const muj_choice *choice, const muj_vertices *verti
     int32_t count = 0;
     for (int32_t t = first; t < end; t += V_LANES) {
         vi32 number = v_addi(v_seti(t), v_iota()), place = v_muli(v_mini(number, v_seti(end - 1)), v_seti(3)), x[3], y[3];
-        vmask outside = v_gti(v_seti(0), v_seti(0)), hidden;
+        vmask outside = v_gti(v_seti(0), v_seti(0)), shows = v_gti(v_seti(end), number);
         for (int k = 0; k < 3; k++) {
             vi32 corner = v_gatheri(corners + k, place);
             x[k] = v_gatheri(vertices->snapped[0], corner);
             y[k] = v_gatheri(vertices->snapped[1], corner);
             outside = v_mor(outside, v_eqi(x[k], v_seti(MUJ_OUTSIDE)));
         }
-        hidden = v_mor(misses(choice, 0, x), misses(choice, 1, y));
         if (choice->facing)
-            hidden = v_mor(hidden, turned_away(choice->facing, x, y));
-        vmask shows = v_mand(v_mor(outside, v_mnot(hidden)), v_gti(v_seti(end), number));
+            shows = v_mand(shows, v_mor(outside, v_mnot(turned_away(choice->facing, x, y))));
+        if (!v_any(shows))
+            continue;
+        vmask hidden = misses(choice, 0, x, y);
+        for (int s = 1; s < choice->samples; s++)
+            hidden = v_mand(hidden, misses(choice, s, x, y));
+        shows = v_mand(shows, v_mor(outside, v_mnot(hidden)));
         count += v_pack(out + count, number, v_bits(shows));
     }
     return count;

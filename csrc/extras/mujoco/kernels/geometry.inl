@@ -168,6 +168,31 @@ static ALWAYS_INLINE void set_places(const muj_raster *raster, lane_places out[P
     }
 }
 
+/* Draws where samples in `inside` are not hidden. */
+static ALWAYS_INLINE void draw_samples(vf32 z, vmask inside, int32_t number, float *depth, int32_t *shown)
+{
+    vf32 before = v_loadf(depth);
+    vmask seen = v_mand(v_mand(v_ge(z, before), v_ge(v_setf(1), z)), inside);
+    if (!v_any(seen))
+        return;
+    v_storef(depth, v_self(seen, z, before));
+    v_storei(shown, v_seli(seen, v_seti(number), v_loadi(shown)));
+}
+
+/* Draws rows of groups of a piece, of which all samples are inside. */
+static ALWAYS_INLINE void draw_whole_rows(const sample_planes *in, int32_t rows, int32_t groups, int32_t number, float *depth, int32_t *shown,
+                                          size_t stride)
+{
+    vi32 group = v_sra(v_iota(), 2);
+    for (int32_t y = 0; y < rows; y++, depth += stride, shown += stride) {
+        vf32 z_row = v_add(in->z, v_setf(in->z_down * (float)y));
+        for (int32_t i = 0; i < groups; i += GROUPS) {
+            vf32 z = v_add(z_row, v_mul(v_setf(in->z_across), v_float(v_addi(v_seti(i), group))));
+            draw_samples(z, v_gti(v_seti(groups - i), group), number, depth + 4 * i, shown + 4 * i);
+        }
+    }
+}
+
 /* Draws rows of groups of a piece. */
 static ALWAYS_INLINE void draw_rows(const sample_planes *in, int32_t rows, int32_t groups, int32_t number, float *depth, int32_t *shown,
                                     size_t stride)
@@ -181,8 +206,6 @@ static ALWAYS_INLINE void draw_rows(const sample_planes *in, int32_t rows, int32
         for (int k = 0; k < 3; k++)
             edge[k] = v_addi(first[k], v_seti(in->down[k] * y));
         for (int32_t i = 0; i < groups; i += GROUPS) {
-            float *near = depth + 4 * i;
-            int32_t *numbers = shown + 4 * i;
             vi32 all = v_ori(v_ori(edge[0], edge[1]), edge[2]);
             if (GROUPS > 1)
                 all = v_ori(all, v_subi(v_seti(groups - 1 - i), group));
@@ -191,10 +214,8 @@ static ALWAYS_INLINE void draw_rows(const sample_planes *in, int32_t rows, int32
                 edge[k] = v_addi(edge[k], v_seti(in->across[k] * GROUPS));
             if (!v_any(inside))
                 continue;
-            vf32 z = v_add(z_row, v_mul(v_setf(in->z_across), v_float(v_addi(v_seti(i), group)))), before = v_loadf(near);
-            vmask seen = v_mand(v_mand(v_ge(z, before), v_ge(v_setf(1), z)), inside);
-            v_storef(near, v_self(seen, z, before));
-            v_storei(numbers, v_seli(seen, v_seti(number), v_loadi(numbers)));
+            vf32 z = v_add(z_row, v_mul(v_setf(in->z_across), v_float(v_addi(v_seti(i), group))));
+            draw_samples(z, inside, number, depth + 4 * i, shown + 4 * i);
         }
     }
 }
@@ -240,7 +261,8 @@ static void draw_large(const muj_raster *raster, const muj_record *record, int32
             in.z = v_asf(four_repeated(block.z, piece));
             for (int k = 0; k < 3; k++)
                 in.edge[k] = four_repeated(block.edge[k], piece);
-            draw_rows(&in, bottom - top + 1, (right - left + 1) / pixels, number, raster->depth + at, raster->shown + at, raster->stride);
+            (block.is_inside ? draw_whole_rows : draw_rows)(&in, bottom - top + 1, (right - left + 1) / pixels, number, raster->depth + at,
+                                                            raster->shown + at, raster->stride);
         }
     }
 }

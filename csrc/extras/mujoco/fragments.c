@@ -32,8 +32,8 @@ static inline int4 like_at(const int32_t *shown, int4 what)
 static int32_t end_of_same(const int32_t *shown, int32_t from, int32_t end)
 {
     int4 what = {shown[from], shown[from], shown[from], shown[from]};
-    while (from < end && lanes_of((like_at(shown + from, what) & like_at(shown + from + 4, what)) &
-                                  (like_at(shown + from + 8, what) & like_at(shown + from + 12, what))) == 15)
+    while (from + 4 <= end && lanes_of((like_at(shown + from, what) & like_at(shown + from + 4, what)) &
+                                       (like_at(shown + from + 8, what) & like_at(shown + from + 12, what))) == 15)
         from += 16;
     while (from < end && shown[from] == what[0])
         from++;

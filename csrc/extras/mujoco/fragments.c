@@ -1,5 +1,6 @@
 /* Fragments: each triangle that shows in a pixel, once (R264).
  * In: what shows at the samples. Out: fragments, row after row. */
+#include "base/vectors.h"
 #include "extras/mujoco/passes.h"
 
 enum { MIXED = -2 }; /* the samples of a pixel differ */
@@ -18,6 +19,25 @@ static inline int32_t shown_by_all(const int32_t shown[4])
 {
     int32_t differs = (shown[0] ^ shown[1]) | (shown[0] ^ shown[2]) | (shown[0] ^ shown[3]);
     return differs ? MIXED : shown[0];
+}
+
+static inline int4 like_at(const int32_t *shown, int4 what)
+{
+    int4 here;
+    memcpy(&here, shown, sizeof here);
+    return here == what;
+}
+
+/* Where the samples that show the same as number `from` end; there is room for three vectors more. */
+static int32_t end_of_same(const int32_t *shown, int32_t from, int32_t end)
+{
+    int4 what = {shown[from], shown[from], shown[from], shown[from]};
+    while (from + 4 <= end && lanes_of((like_at(shown + from, what) & like_at(shown + from + 4, what)) &
+                                       (like_at(shown + from + 8, what) & like_at(shown + from + 12, what))) == 15)
+        from += 16;
+    while (from < end && shown[from] == what[0])
+        from++;
+    return from < end ? from : end;
 }
 
 /* Adds the fragments of a pixel, of those samples that count. */
@@ -49,8 +69,9 @@ static int add_row(const muj_picture *picture, muj_shader *shader, const muj_lay
                 return 0;
             continue;
         }
-        while (end < width && (!stencil || stencil[end] == all) && (samples == 1 ? shown[end] : shown_by_all(shown + 4 * end)) == what)
-            end++;
+        end = end_of_same(shown, x * samples, width * samples) / samples;
+        for (int32_t k = x + 1; stencil && k < end; k++)
+            end = stencil[k] == all ? end : k;
         if (what >= 0 && !muj_add_run(shader, muj_record_of(layer, what), x, end, y, all, out))
             return 0;
     }

@@ -124,19 +124,36 @@ static inline void add_fragment(const muj_fragments *fragments, size_t number, u
             add_to(out, code_above(fragments, number, mirrored[s]), 1);
 }
 
+/* Writes pixels that follow each other, four at once: their colours are 12 bytes. */
+static void write_pixels(const muj_picture *picture, size_t pixel, const uint32_t *codes, int32_t count)
+{
+    int32_t k = 0;
+    for (; k + 4 <= count; k += 4) {
+        const uint32_t *c = codes + k;
+        uint32_t bytes[3] = {c[0] | c[1] << 24, c[1] >> 8 | c[2] << 16, c[2] >> 16 | c[3] << 8};
+        memcpy(picture->frame->color + 3 * (pixel + (size_t)k), bytes, sizeof bytes);
+    }
+    for (; k < count; k++)
+        write_pixel(picture, pixel + (size_t)k, codes[k]);
+}
+
 /* Writes a run of which all samples are alike. */
 static void resolve_alike(const muj_picture *picture, const muj_fragments *fragments, const muj_run *run)
 {
     uint32_t codes[MUJ_COLUMN];
-    memcpy(codes, muj_codes_of(fragments, 0) + run->first, (size_t)run->count * sizeof *codes);
+    const uint32_t *first = muj_codes_of(fragments, 0) + run->first;
+    if (fragments->passes == 1) {
+        write_pixels(picture, (size_t)run->pixel, first, run->count);
+        return;
+    }
+    memcpy(codes, first, (size_t)run->count * sizeof *codes);
     for (int p = 1; p < fragments->passes; p++) {
         const uint32_t *more = muj_codes_of(fragments, p) + run->first;
         const uint8_t *shadowed = (const uint8_t *)fragments->shadowed.data + run->first;
         for (int32_t k = 0; k < run->count; k++)
             codes[k] = sum_of(codes[k], more[k] & ((uint32_t)(shadowed[k] >> (p - 1) & 1) - 1));
     }
-    for (int32_t k = 0; k < run->count; k++)
-        write_pixel(picture, (size_t)(run->pixel + k), codes[k]);
+    write_pixels(picture, (size_t)run->pixel, codes, run->count);
 }
 
 static int is_black(const uint32_t *codes, int32_t count)
@@ -165,17 +182,24 @@ static void resolve_run(const muj_picture *picture, const muj_fragments *fragmen
     }
 }
 
+static void clear_pixels(const muj_picture *picture, int32_t first, int32_t end)
+{
+    memset(picture->frame->color + 3 * (size_t)first, 0, 3 * (size_t)(end - first));
+}
+
 /* The fragments of a pixel follow each other. Samples without one are black. */
 void muj_resolve_fragments(const muj_target *target, const muj_fragments *fragments, const muj_codes *mirrored)
 {
     const muj_picture *picture = target->picture;
     const muj_run *runs = fragments->runs.data;
-    size_t width = (size_t)picture->frame->width, i = 0;
+    size_t i = 0;
+    int32_t width = picture->frame->width, next = target->top * width;
     uint32_t all = (1u << picture->samples) - 1;
-    memset(picture->frame->color + 3 * (size_t)target->top * width, 0, 3 * (size_t)(target->end - target->top) * width);
     while (i < fragments->runs.count) {
         int32_t pixel = runs[i].pixel;
         sums sum = {0};
+        clear_pixels(picture, next, pixel);
+        next = pixel + runs[i].count;
         if (runs[i].mask == all) {
             resolve_run(picture, fragments, &runs[i], mirrored && runs[i].adds ? samples_of(target, mirrored, &runs[i]) : NULL);
             i++;
@@ -186,6 +210,7 @@ void muj_resolve_fragments(const muj_target *target, const muj_fragments *fragme
                          mirrored && runs[i].adds ? samples_of(target, mirrored, &runs[i]) : NULL, &sum);
         write_pixel(picture, (size_t)pixel, mean_of_four(&sum));
     }
+    clear_pixels(picture, next, target->end * width);
 }
 
 /* ---- blending ---- */

@@ -52,7 +52,8 @@ typedef struct muj_view {
     double clip[4];                 /* with has_clip, points with a negative distance from this plane don't show */
     float tint;                     /* of colours, before light */
     int32_t low[2], high[2];        /* the pixels that count, the last ones included */
-    int32_t first_sample;           /* a pixel's samples lie between this and 256 less this, in 1/256 pixel */
+    int32_t samples;                /* of a pixel */
+    int32_t first_sample;           /* they lie between this and 256 less this, in 1/256 pixel */
     double guard;                   /* pixels to each side; triangles that reach farther are clipped */
 } muj_view;
 
@@ -74,6 +75,13 @@ static inline int muj_is_behind(const double eye[3], const e3d_muj_geom *geom)
     for (int r = 0; r < 3; r++)
         d += ((float)eye[r] - geom->pos[r]) * geom->mat[3 * r + 2];
     return d < 0;
+}
+
+/* Where a pixel's samples are, in 1/256 pixel, Y down: Mesa's four, or the middle. */
+static inline int32_t muj_sample_at(int32_t samples, int axis, int s)
+{
+    static const uint8_t AT[2][4] = {{96, 224, 32, 160}, {224, 160, 96, 32}};
+    return samples == 1 ? MUJ_SUB / 2 : AT[axis][s];
 }
 
 /* The code of a number, rounded half up. */

@@ -85,15 +85,13 @@ void e3d_muj_memory_free(e3d_muj_memory *memory)
 
 static void set_lanes(muj_picture *picture)
 {
-    /* The places of Mesa's samples, Y down */
-    static const int32_t X[4] = {96, 224, 32, 160}, Y[4] = {224, 160, 96, 32};
     int single = picture->samples == 1;
     picture->group_pixels = single ? 4 : 1;
     picture->groups = single ? (picture->frame->width + 3) / 4 : picture->frame->width;
     picture->stride = 4 * ((size_t)picture->groups + 3);
     for (int l = 0; l < 4; l++) {
-        picture->lane_x[l] = single ? MUJ_SUB * l + MUJ_SUB / 2 : X[l];
-        picture->lane_y[l] = single ? MUJ_SUB / 2 : Y[l];
+        picture->lane_x[l] = (single ? MUJ_SUB * l : 0) + muj_sample_at(picture->samples, 0, l);
+        picture->lane_y[l] = muj_sample_at(picture->samples, 1, l);
     }
 }
 

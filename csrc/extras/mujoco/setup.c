@@ -49,7 +49,10 @@ int muj_choose(const muj_kernels *kernels, const muj_draw *draw, const muj_view 
     const e3d_muj_shape *shape = draw->shape;
     double m[4][4], clip[4];
     muj_projection projection = {.most = (float)view->guard * MUJ_SUB, .has_clip = view->has_clip};
-    muj_choice choice = {facing, view->first_sample, {view->low[0], view->low[1]}, {view->high[0], view->high[1]}};
+    muj_choice choice = {facing, view->samples, {{0}}, {view->low[0], view->low[1]}, {view->high[0], view->high[1]}};
+    for (int axis = 0; axis < 2; axis++)
+        for (int s = 0; s < view->samples; s++)
+            choice.at[axis][s] = muj_sample_at(view->samples, axis, s);
     if (!reserve_vertices(worker, (size_t)shape->vertices) ||
         !e3d_array_reserve(&worker->chosen, (size_t)shape->triangles + 16, sizeof(int32_t)))
         return 0;

@@ -125,6 +125,15 @@ static void set_shadowed(const muj_batch *batch, int from, int count, int is_unl
             out[i] |= (uint8_t)((batch->code[p][from + i] == 0) << (p - 1));
 }
 
+/* Most parts are one fragment, for which a call takes longer than the copy. */
+static inline void copy_codes(const uint32_t *from, int32_t count, uint32_t *to)
+{
+    if (count == 1)
+        *to = *from;
+    else
+        memcpy(to, from, (size_t)count * sizeof *to);
+}
+
 static void write_batch(const muj_shader *shader, const parts *of, muj_fragments *fragments)
 {
     const muj_batch *batch = &shader->batch;
@@ -132,7 +141,7 @@ static void write_batch(const muj_shader *shader, const parts *of, muj_fragments
     for (int k = 0; k < of->count; from += of->length[k++]) {
         size_t first = (size_t)of->first[k], bytes = (size_t)of->length[k] * 4;
         for (int p = 0; p < batch->passes; p++)
-            memcpy(muj_codes_of(fragments, p) + first, batch->code[p] + from, bytes);
+            copy_codes(batch->code[p] + from, of->length[k], muj_codes_of(fragments, p) + first);
         for (int i = 0; shader->is_blending && i < of->length[k]; i++)
             muj_codes_of(fragments, 0)[first + (size_t)i] |= (uint32_t)muj_code(batch->alpha[from + i]) << 24;
         for (int c = 0; c < 3 && batch->needs_place; c++)
@@ -154,16 +163,24 @@ static void shade_batch(muj_shader *shader, parts *of, muj_fragments *fragments)
     batch->count = of->count = 0;
 }
 
+/* Repeats the last fragment of a batch in the pixels after it, so that there are `length` of them. */
+static void fill_batch(muj_batch *batch, int length)
+{
+    int32_t *face = batch->face + batch->count, *x = batch->x + batch->count, *y = batch->y + batch->count;
+    for (int i = 1; i < length; i++)
+        face[i] = face[0], x[i] = x[0] + i, y[i] = y[0];
+}
+
 /* Adds a run to batches, and shades those that are full. */
 static void take_run(muj_shader *shader, const muj_run *run, parts *of, muj_fragments *fragments)
 {
     muj_batch *batch = &shader->batch;
     for (int32_t done = 0; done < run->count;) {
         int32_t room = MUJ_BATCH - batch->count, left = run->count - done, length = left < room ? left : room;
-        for (int i = 0; i < length; i++) {
-            batch->face[batch->count + i] = run->face;
-            batch->x[batch->count + i] = run->x + done + i, batch->y[batch->count + i] = run->y;
-        }
+        batch->face[batch->count] = run->face; /* most runs are one fragment */
+        batch->x[batch->count] = run->x + done, batch->y[batch->count] = run->y;
+        if (length > 1)
+            fill_batch(batch, length);
         of->first[of->count] = run->first + done, of->length[of->count] = length;
         of->is_unlit[of->count++] = run->is_unlit;
         batch->count += length;

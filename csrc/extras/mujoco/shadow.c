@@ -139,7 +139,8 @@ static double offset_of(const muj_record *record)
     return OFFSET_FACTOR * (x > y ? x : y) + OFFSET_UNITS;
 }
 
-/* The records of a plane lie in it: if it is behind a lookup by more than errors, all are. */
+/* The records of a plane lie in it: if it is behind a lookup by more than errors, all are. A plane is by four steps behind the
+ * lookups on itself. */
 static int is_hidden_by_planes(const cast_job *job, const lookup *at)
 {
     const muj_record *planes = job->planes->data;
@@ -149,7 +150,7 @@ static int is_hidden_by_planes(const cast_job *job, const lookup *at)
         double steps = steps_at(plane, offset_of(plane), at->x, at->y);
         if (steps >= (double)at->step + 1 && covers(plane, at->x, at->y))
             return 1;
-        while (steps + 4 < (double)at->step && i < job->planes->count && planes[i].draw == plane->draw)
+        while (steps + 1 < (double)at->step && i < job->planes->count && planes[i].draw == plane->draw)
             i++;
     }
     return 0;

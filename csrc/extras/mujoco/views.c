@@ -40,6 +40,7 @@ void muj_set_view(const e3d_muj_frame *frame, muj_view *out)
     }
     out->tint = 1;
     out->high[0] = frame->width - 1, out->high[1] = frame->height - 1;
+    out->samples = frame->samples;
     out->first_sample = frame->samples == 1 ? 128 : 32;
     out->guard = frame->width > MUJ_GUARD / 2 || frame->height > MUJ_GUARD / 2 ? MUJ_MOST : MUJ_GUARD;
 }
@@ -120,6 +121,7 @@ void muj_set_light_view(const e3d_muj_frame *frame, const e3d_muj_light *light, 
         out->rows[1][c] = row[1][c] * scale + out->rows[3][c] * middle;
     }
     out->high[0] = out->high[1] = frame->shadow_size - 1;
+    out->samples = 1;
     out->first_sample = 128;
     out->guard = frame->shadow_size > MUJ_GUARD ? frame->shadow_size : MUJ_GUARD;
 }

@@ -74,7 +74,7 @@ def _layout(items: Any, arrays: dict, integers: tuple, floats: tuple) -> tuple[n
             if hasattr(type(items[0]), name):
                 offset = _scalar_offset(items, name, marks, kind, start, size)
                 fields.append((name, kind, offset))
-    first = min(offset for _, _, offset in fields)
+    first = min(offset for _, _, offset in fields) // 4 * 4  # structs are whole words
     dtype = np.dtype(
         {
             "names": [name for name, _, _ in fields],

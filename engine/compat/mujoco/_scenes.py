@@ -22,8 +22,10 @@ _SPOT, _DIRECTIONAL = 0, 1  # of mjtLightType
 _LEAST_NEAR = 1e-15  # mjMINVAL
 _AS_THEY_ARE = (
     *("type", "dataid", "objid", "category", "matid", "segid", "size", "pos", "mat", "rgba"),
-    *("emission", "specular", "shininess", "reflectance", "texcoord"),
+    *("emission", "specular", "shininess", "reflectance", "texcoord", "modelrbound"),
+    *("texid", "texuniform", "texrepeat"),  # of versions whose geoms have them
 )
+_OTHER_NAMES = {"modelrbound": "rbound"}
 
 
 _Row = list[float]
@@ -41,6 +43,8 @@ class SceneView:
         self.scene = scene
         self._geoms = view_geoms(scene)
         self._lights = view_lights(scene)
+        self._columns = _columns(self._geoms.dtype)
+        self._lit: tuple[Any, ...] = ()  # what lights were last, and what was made of them
 
     def objects_of(self, numbers: np.ndarray) -> np.ndarray:
         """Return the objid and objtype of geoms, (..., 2) int32; of number -1 both are -1."""
@@ -60,22 +64,17 @@ class SceneView:
     def geoms(self, model: Model) -> np.ndarray:
         """Return the geoms as the core reads them."""
         from_ = self._geoms[: self.scene.ngeom]
-        out = np.empty(len(from_), GEOM)
-        for name in _AS_THEY_ARE:
-            out[name] = from_[name]
+        out = _words(from_).take(self._columns, axis=1).view(GEOM)[:, 0]
         names = from_.dtype.names or ()
         out["castshadow"] = from_["castshadow"] if "castshadow" in names else 1
-        out["rbound"] = np.where(from_["objtype"] == _GEOM, from_["modelrbound"], np.float32(-1))
-        material = np.clip(from_["matid"], 0, max(len(model.texids) - 1, 0))
-        by_material = (from_["matid"] >= 0) & (len(model.texids) > 0)
+        out["rbound"][from_["objtype"] != _GEOM] = -1
+        by_material = out["matid"] >= 0
         if "texid" in names:
-            by_material &= from_["texid"] < 0
-            for name in ("texid", "texuniform", "texrepeat"):
-                out[name] = from_[name]
+            by_material &= out["texid"] < 0
         else:
             out["texid"], out["texuniform"], out["texrepeat"] = -1, 0, 0
-        if by_material.any():
-            chosen = material[by_material]
+        if len(model.texids) and by_material.any():
+            chosen = np.minimum(out["matid"][by_material], len(model.texids) - 1)
             out["texid"][by_material] = model.texids[chosen]
             out["texuniform"][by_material] = model.texuniforms[chosen]
             out["texrepeat"][by_material] = model.texrepeats[chosen]
@@ -91,10 +90,14 @@ class SceneView:
         if none:
             return np.zeros(0, LIGHT), 0.0
         every = self._lights[: self.scene.nlight]
+        memory = model, every.tobytes()
+        if self._lit[:2] == memory:
+            return self._lit[2]
         named = every.dtype.names or ()
         kind = every["type"] if "type" in named else every["directional"].astype(np.int32)
         supported = (kind == _DIRECTIONAL) | (kind == _SPOT)
-        if not supported.all():
+        is_all = bool(supported.all())
+        if not is_all:
             warn(
                 "lights of the types point and image are not drawn, as in MuJoCo's classic renderer"
             )
@@ -121,6 +124,7 @@ class SceneView:
                 field = min(2 * cutoff * model.shadow_scale, 160.0)
                 out["cutoff_cosine"][k] = cos(math.radians(cutoff)) if cutoff < 180 else -2.0
                 out["shadow_reach"][k] = max(tan(math.radians(field / 2)), 1e-9)
+        self._lit = (*memory, (out, ambient)) if is_all else ()  # else the next picture warns, too
         return out, ambient
 
     def set_moving_shapes(self, model: Model) -> None:
@@ -161,6 +165,24 @@ class SceneView:
             uvs,
             edges,
         )
+
+
+def _words(records: np.ndarray) -> np.ndarray:
+    """Return the memory of records as words of 4 bytes, a row each."""
+    return records.view(np.int32).reshape(len(records), records.dtype.itemsize // 4)
+
+
+def _columns(dtype: np.dtype) -> np.ndarray:
+    """Return the word of MuJoCo's geoms that is each word of the core's.
+
+    Words that are not taken as they are have 0.
+    """
+    out = np.zeros(GEOM.itemsize // 4, np.int64)
+    for name in set(_AS_THEY_ARE) & set(dtype.names or ()):
+        kind, to = GEOM.fields[_OTHER_NAMES.get(name, name)][:2]
+        words = np.arange(kind.itemsize // 4)
+        out[to // 4 + words] = dtype.fields[name][1] // 4 + words
+    return out
 
 
 def _flex_frame(model: Model, scene: Any, number: int, radius: float) -> tuple:

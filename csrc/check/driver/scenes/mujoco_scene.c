@@ -114,8 +114,9 @@ static void set_geom(random_stream *r, e3d_muj_geom *geom, int hostile)
     geom->texcoord = random_below(r, 2);
     geom->segid = random_below(r, 9) - 1;
     geom->castshadow = random_below(r, 4) > 0;
+    float most = random_once_in(r, 3) ? 0.06f : 1.0f; /* triangles smaller than a pixel, too */
     for (int c = 0; c < 3; c++)
-        geom->size[c] = random_once_in(r, 6) ? 0 : random_float(r, 0.05f, 1.0f);
+        geom->size[c] = random_once_in(r, 6) ? 0 : random_float(r, 0.05f * most, most);
     fill(r, geom->pos, 3, 1.5f, hostile);
     fill(r, geom->mat, 9, 1.0f, hostile);
     fill_positive(r, geom->rgba, 4, 1.0f);

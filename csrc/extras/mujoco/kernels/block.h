@@ -9,6 +9,7 @@ enum { MUJ_BLOCK = 64 };
 typedef struct muj_block {
     int32_t edge[3][4];             /* floors of 1/256 */
     int32_t across[3], down[3];     /* for a group, for a row */
+    int32_t is_inside;              /* all of the block is */
     float z[4], z_across, z_down;
 } muj_block;
 
@@ -16,6 +17,7 @@ typedef struct muj_block {
 static inline int muj_begin_block(const muj_raster *raster, const muj_record *record, int32_t x0, int32_t y0, int32_t x1, int32_t y1, muj_block *out)
 {
     int64_t dx = x0 - record->x0, dy = y0 - record->y0, wide = x1 - x0 + 1, high = y1 - y0 + 1;
+    out->is_inside = 1;
     for (int k = 0; k < 3; k++) {
         int64_t a = record->a[k], b = record->b[k], e = record->e[k] + MUJ_SUB * (a * dx + b * dy);
         int64_t least = e + MUJ_SUB * ((a < 0 ? a * wide : 0) + (b < 0 ? b * high : 0));
@@ -24,6 +26,8 @@ static inline int muj_begin_block(const muj_raster *raster, const muj_record *re
             return 0;
         if (least >= 0)
             a = b = e = 0; /* inside for the whole block */
+        else
+            out->is_inside = 0;
         for (int l = 0; l < 4; l++)
             out->edge[k][l] = (int32_t)((e + a * raster->lane_x[l] + b * raster->lane_y[l]) >> 8);
         out->across[k] = (int32_t)a * raster->group_pixels;

@@ -48,13 +48,47 @@ static void kernel_transform(const muj_projection *projection, const float *posi
     }
 }
 
-/* The triangles that surely cover no sample of the pixels that count, along an axis. */
-static ALWAYS_INLINE vmask misses(const muj_choice *choice, int axis, const vi32 v[3])
+/* The box of triangles along an axis, in 1/256 pixel. */
+typedef struct boxes {
+    vi32 low, high;
+} boxes;
+
+static ALWAYS_INLINE boxes boxes_of(const vi32 v[3])
 {
-    vi32 low = v_mini(v_mini(v[0], v[1]), v[2]), high = v_maxi(v_maxi(v[0], v[1]), v[2]);
-    low = v_sra(v_addi(low, v_seti(choice->first_sample - 1)), 8);
-    high = v_sra(v_subi(high, v_seti(choice->first_sample)), 8);
-    return v_gti(v_maxi(low, v_seti(choice->low[axis])), v_mini(high, v_seti(choice->high[axis])));
+    return (boxes){v_mini(v_mini(v[0], v[1]), v[2]), v_maxi(v_maxi(v[0], v[1]), v[2])};
+}
+
+/* The pixels whose sample, `at` 1/256 pixel from where they begin, lies in the boxes. */
+static ALWAYS_INLINE boxes pixels_in(boxes in, int32_t at)
+{
+    return (boxes){v_sra(v_addi(in.low, v_seti(255 - at)), 8), v_sra(v_subi(in.high, v_seti(at)), 8)};
+}
+
+/* Whether none of them counts. */
+static ALWAYS_INLINE vmask none_of(const muj_choice *choice, int axis, boxes in)
+{
+    return v_gti(v_maxi(in.low, v_seti(choice->low[axis])), v_mini(in.high, v_seti(choice->high[axis])));
+}
+
+/* The triangles that don't have a point inside or on an edge. They are small. */
+static ALWAYS_INLINE vmask excludes(const vi32 x[3], const vi32 y[3], vi32 px, vi32 py)
+{
+    vi32 all = v_seti(0), none = v_seti(0);
+    for (int k = 0; k < 3; k++) {
+        int q = (k + 1) % 3;
+        vi32 edge = v_subi(v_muli(v_subi(x[q], x[k]), v_subi(py, y[k])), v_muli(v_subi(y[q], y[k]), v_subi(px, x[k])));
+        all = v_ori(all, edge), none = v_ori(none, v_subi(v_seti(0), edge));
+    }
+    return v_mand(v_negi(all), v_negi(none));
+}
+
+/* The triangles that surely cover no sample number `s`: of those with one of them in their box, the edges tell. */
+static ALWAYS_INLINE vmask misses(const muj_choice *choice, int s, const vi32 x[3], const vi32 y[3])
+{
+    boxes columns = pixels_in(boxes_of(x), choice->at[0][s]), rows = pixels_in(boxes_of(y), choice->at[1][s]);
+    vmask one = v_mand(v_eqi(columns.low, columns.high), v_eqi(rows.low, rows.high));
+    vi32 px = v_addi(v_shl(columns.low, 8), v_seti(choice->at[0][s])), py = v_addi(v_shl(rows.low, 8), v_seti(choice->at[1][s]));
+    return v_mor(v_mor(none_of(choice, 0, columns), none_of(choice, 1, rows)), v_mand(one, excludes(x, y, px, py)));
 }
 
 /* The triangles that surely show the side that is culled: rounding errors don't change the sign of their area. */
@@ -73,17 +107,21 @@ static int32_t kernel_choose(const muj_choice *choice, const muj_vertices *verti
     int32_t count = 0;
     for (int32_t t = first; t < end; t += V_LANES) {
         vi32 number = v_addi(v_seti(t), v_iota()), place = v_muli(v_mini(number, v_seti(end - 1)), v_seti(3)), x[3], y[3];
-        vmask outside = v_gti(v_seti(0), v_seti(0)), hidden;
+        vmask outside = v_gti(v_seti(0), v_seti(0)), shows = v_gti(v_seti(end), number);
         for (int k = 0; k < 3; k++) {
             vi32 corner = v_gatheri(corners + k, place);
             x[k] = v_gatheri(vertices->snapped[0], corner);
             y[k] = v_gatheri(vertices->snapped[1], corner);
             outside = v_mor(outside, v_eqi(x[k], v_seti(MUJ_OUTSIDE)));
         }
-        hidden = v_mor(misses(choice, 0, x), misses(choice, 1, y));
         if (choice->facing)
-            hidden = v_mor(hidden, turned_away(choice->facing, x, y));
-        vmask shows = v_mand(v_mor(outside, v_mnot(hidden)), v_gti(v_seti(end), number));
+            shows = v_mand(shows, v_mor(outside, v_mnot(turned_away(choice->facing, x, y))));
+        if (!v_any(shows))
+            continue;
+        vmask hidden = misses(choice, 0, x, y);
+        for (int s = 1; s < choice->samples; s++)
+            hidden = v_mand(hidden, misses(choice, s, x, y));
+        shows = v_mand(shows, v_mor(outside, v_mnot(hidden)));
         count += v_pack(out + count, number, v_bits(shows));
     }
     return count;
@@ -130,6 +168,31 @@ static ALWAYS_INLINE void set_places(const muj_raster *raster, lane_places out[P
     }
 }
 
+/* Draws where samples in `inside` are not hidden. */
+static ALWAYS_INLINE void draw_samples(vf32 z, vmask inside, int32_t number, float *depth, int32_t *shown)
+{
+    vf32 before = v_loadf(depth);
+    vmask seen = v_mand(v_mand(v_ge(z, before), v_ge(v_setf(1), z)), inside);
+    if (!v_any(seen))
+        return;
+    v_storef(depth, v_self(seen, z, before));
+    v_storei(shown, v_seli(seen, v_seti(number), v_loadi(shown)));
+}
+
+/* Draws rows of groups of a piece, of which all samples are inside. */
+static ALWAYS_INLINE void draw_whole_rows(const sample_planes *in, int32_t rows, int32_t groups, int32_t number, float *depth, int32_t *shown,
+                                          size_t stride)
+{
+    vi32 group = v_sra(v_iota(), 2);
+    for (int32_t y = 0; y < rows; y++, depth += stride, shown += stride) {
+        vf32 z_row = v_add(in->z, v_setf(in->z_down * (float)y));
+        for (int32_t i = 0; i < groups; i += GROUPS) {
+            vf32 z = v_add(z_row, v_mul(v_setf(in->z_across), v_float(v_addi(v_seti(i), group))));
+            draw_samples(z, v_gti(v_seti(groups - i), group), number, depth + 4 * i, shown + 4 * i);
+        }
+    }
+}
+
 /* Draws rows of groups of a piece. */
 static ALWAYS_INLINE void draw_rows(const sample_planes *in, int32_t rows, int32_t groups, int32_t number, float *depth, int32_t *shown,
                                     size_t stride)
@@ -143,8 +206,6 @@ static ALWAYS_INLINE void draw_rows(const sample_planes *in, int32_t rows, int32
         for (int k = 0; k < 3; k++)
             edge[k] = v_addi(first[k], v_seti(in->down[k] * y));
         for (int32_t i = 0; i < groups; i += GROUPS) {
-            float *near = depth + 4 * i;
-            int32_t *numbers = shown + 4 * i;
             vi32 all = v_ori(v_ori(edge[0], edge[1]), edge[2]);
             if (GROUPS > 1)
                 all = v_ori(all, v_subi(v_seti(groups - 1 - i), group));
@@ -153,10 +214,8 @@ static ALWAYS_INLINE void draw_rows(const sample_planes *in, int32_t rows, int32
                 edge[k] = v_addi(edge[k], v_seti(in->across[k] * GROUPS));
             if (!v_any(inside))
                 continue;
-            vf32 z = v_add(z_row, v_mul(v_setf(in->z_across), v_float(v_addi(v_seti(i), group)))), before = v_loadf(near);
-            vmask seen = v_mand(v_mand(v_ge(z, before), v_ge(v_setf(1), z)), inside);
-            v_storef(near, v_self(seen, z, before));
-            v_storei(numbers, v_seli(seen, v_seti(number), v_loadi(numbers)));
+            vf32 z = v_add(z_row, v_mul(v_setf(in->z_across), v_float(v_addi(v_seti(i), group))));
+            draw_samples(z, inside, number, depth + 4 * i, shown + 4 * i);
         }
     }
 }
@@ -202,7 +261,8 @@ static void draw_large(const muj_raster *raster, const muj_record *record, int32
             in.z = v_asf(four_repeated(block.z, piece));
             for (int k = 0; k < 3; k++)
                 in.edge[k] = four_repeated(block.edge[k], piece);
-            draw_rows(&in, bottom - top + 1, (right - left + 1) / pixels, number, raster->depth + at, raster->shown + at, raster->stride);
+            (block.is_inside ? draw_whole_rows : draw_rows)(&in, bottom - top + 1, (right - left + 1) / pixels, number, raster->depth + at,
+                                                            raster->shown + at, raster->stride);
         }
     }
 }

@@ -33,7 +33,7 @@ typedef struct muj_vertices {
 
 typedef struct muj_choice {
     int32_t facing;                 /* 1: fronts show, -1: backs, 0: both */
-    int32_t first_sample;           /* a pixel's samples lie between this and 256 less this, in 1/256 pixel */
+    int32_t samples, at[2][4];      /* of a pixel; where they are, in 1/256 pixel */
     int32_t low[2], high[2];        /* the pixels that count, the last ones included */
 } muj_choice;
 

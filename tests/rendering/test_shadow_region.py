@@ -41,21 +41,24 @@ def test_a_region_holds_what_the_camera_sees_and_its_surroundings():
         view = some_view(rng, bounds)
         to_light = rng.normal(size=3)
         to_light /= np.linalg.norm(to_light)
-        light = e3d.DirectionalLight(-to_light, shadow="map", shadow_cascades=1)
+        count = int(rng.integers(1, 5))
+        light = e3d.DirectionalLight(-to_light, shadow="map", shadow_cascades=count)
         pose = tuple(to_light.tolist()), None
-        views = VIEWS["cascades"](light, pose, bounds, sight_of(view, bounds, 1))
-        lookups, clip = lookups_of(light, views, view, bounds), views.maps[-1].clip_from_world
-        region = region_of(lookups, clip)
-        if region is None:
-            continue
+        views = VIEWS["cascades"](light, pose, bounds, sight_of(view, bounds, count))
         points = rng.uniform(bounds[0], bounds[1], (2000, 3))
         seen = are_inside(places(view.clip_from_world, points))
-        around = places(clip, points[seen])
-        angles = rng.uniform(0.0, 2.0 * math.pi, len(around))
-        around[:, :2] += 0.99 * lookups.margin * np.stack([np.cos(angles), np.sin(angles)], -1)
-        assert are_inside(around @ np.linalg.inv(clip).T @ region.T).all()
-        shares.append(are_inside(places(region, points)).mean())
-        found += 1
+        for one, lookups in zip(views.maps, lookups_of(light, views, view, bounds), strict=True):
+            region = region_of(lookups, one.clip_from_world)
+            if region is None:
+                continue
+            clip = places(one.clip_from_world, points)
+            shown = are_inside(clip)
+            around, angles = clip[seen & shown], rng.uniform(0.0, 2.0 * math.pi, len(points))
+            shift = np.stack([np.cos(angles), np.sin(angles)], -1)[: len(around)]
+            around[:, :2] += 0.99 * lookups.margin * shift
+            assert are_inside(around @ np.linalg.inv(one.clip_from_world).T @ region.T).all()
+            shares.append((are_inside(places(region, points)) & shown).sum() / shown.sum())
+            found += 1
     assert found > 20
     assert np.mean(shares) < 0.6
 

@@ -221,7 +221,7 @@ class ShadowMaps(Pass):
         light: DirectLight,
         views: ShadowViews,
         moment: Moment,
-        lookups: Lookups,
+        lookups: list[Lookups | None],
     ) -> None:
         count, size = len(views.maps), views.size
         kept = self._kept.get(number)
@@ -229,9 +229,8 @@ class ShadowMaps(Pass):
             kept = self._kept[number] = _LightMaps(count, size)
         taps, step = light.shadow_taps, round(256 * light.shadow_radius)
         soft, widest = size_of(light), widest_radius(light)
-        of_scene = count - 1 if isinstance(light, DirectionalLight) and soft == 0.0 else None
-        for k, seen in enumerate(views.maps):
-            self._update_map(kept, k, seen, moment, lookups if k == of_scene else None)
+        for k, (seen, served) in enumerate(zip(views.maps, lookups, strict=True)):
+            self._update_map(kept, k, seen, moment, served)
         self._count += count
         self.tools.draw_list.native.set_shadow(
             number,

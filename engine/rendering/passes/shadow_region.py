@@ -11,13 +11,14 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
+from operator import mul
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...base.linalg.single import Vector, cross, dot
-from ...model.scene.lights import DirectLight
+from ...model.scene.lights import DirectionalLight, DirectLight
 from ...model.scene.shadow_casting import shadow_reach
 from .._view import View
 from .shadow_views import ShadowViews
@@ -26,16 +27,17 @@ from .shadow_views import ShadowViews
 _WIDER = 17.0 / 16.0
 #: The share of a map's side by which rounded places may be off.
 _SPARE = 1.0 / 64.0
-#: A region of a greater share of the box is not worth it.
+#: A region of a greater share of what the map shows is not worth it.
 _WORTH = 0.75
 
 #: The faces of a box, by the numbers of its corners, of which the last coordinate changes first.
 _FACES = ((0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5))
 
-#: In world space.
-Polygon: TypeAlias = list[list[float]]
+Point: TypeAlias = Sequence[float]
 #: In a map's clip space.
 Place: TypeAlias = tuple[float, float]
+#: What a map shows in its clip space, as half-planes (see `_clip`).
+_SQUARE = ((1.0, 0.0, 1.0), (-1.0, 0.0, 1.0), (0.0, 1.0, 1.0), (0.0, -1.0, 1.0))
 
 
 class Lookups(NamedTuple):
@@ -57,18 +59,25 @@ class Lookups(NamedTuple):
 
 def lookups_of(
     light: DirectLight, views: ShadowViews, view: View, bounds: NDArray[np.float64]
-) -> Lookups:
-    """Return where a picture looks up the last map of a light that has no place."""
-    reach = shadow_reach(light)
-    moved = abs(light.shadow_normal_bias) * views.places[-1][0] + 1.25 * reach * math.sqrt(2.0)
-    texels = moved + reach + _SPARE * views.size
-    return Lookups(view, tuple(map(tuple, bounds.tolist())), 2.0 * texels / views.size)
+) -> list[Lookups | None]:
+    """Return where a picture looks up each map of a light; None for anywhere.
+
+    What soft shadows depend on is not only near their samples (R227).
+    """
+    if not isinstance(light, DirectionalLight) or light.shadow_softness > 0.0:
+        return [None] * len(views.maps)
+    box, reach = tuple(map(tuple, bounds.tolist())), shadow_reach(light)
+    found: list[Lookups | None] = []
+    for scale, _, _ in views.places:
+        moved = abs(light.shadow_normal_bias) * scale + 1.25 * reach * math.sqrt(2.0)
+        found.append(Lookups(view, box, 2.0 * (moved + reach) / views.size + 2.0 * _SPARE))
+    return found
 
 
-def _clip(polygon: Polygon, plane: Sequence[float]) -> Polygon:
-    """Return what a half-space leaves of a convex polygon."""
-    kept: Polygon = []
-    heights = [dot(plane[:3], corner) + plane[3] for corner in polygon]
+def _clip(polygon: Sequence[Point], plane: Sequence[float]) -> list[Point]:
+    """Return what a half-space leaves of a convex polygon: where (point, 1) times it is >= 0."""
+    kept: list[Point] = []
+    heights = [sum(map(mul, plane, (*corner, 1.0))) for corner in polygon]
     for k, (corner, height) in enumerate(zip(polygon, heights, strict=True)):
         before, low = polygon[k - 1], heights[k - 1]
         if (low < 0.0) != (height < 0.0):
@@ -89,7 +98,7 @@ def _centre(x: list[float], y: list[float], w: list[float]) -> list[float] | Non
     return [-dot(rises, parts) / volume for parts in zip(*crossed, strict=True)]
 
 
-def _seen_corners(view: View, corners: Polygon) -> Polygon:
+def _seen_corners(view: View, corners: Sequence[Point]) -> list[Point]:
     """Return points whose convex hull holds what the camera sees of a box."""
     x, y, _, w = view.clip_from_world.tolist()
     planes = [
@@ -97,9 +106,9 @@ def _seen_corners(view: View, corners: Polygon) -> Polygon:
         for row in (x, y)
         for sign in (1.0, -1.0)
     ]
-    points: Polygon = []
+    points: list[Point] = []
     for numbers in _FACES:
-        face = [corners[number] for number in numbers]
+        face: Sequence[Point] = [corners[number] for number in numbers]
         for plane in planes:
             face = _clip(face, plane)
         points += face
@@ -109,12 +118,6 @@ def _seen_corners(view: View, corners: Polygon) -> Polygon:
     ):
         points.append(eye)  # the frustum's only corner that no face has
     return points
-
-
-def _place(rows: list[list[float]], point: Sequence[float]) -> Place:
-    """Return where a point is in a map's clip space."""
-    x, y = (dot(row[:3], point) + row[3] for row in rows)
-    return x, y
 
 
 def _area_of(corners: list[Place]) -> float:
@@ -133,6 +136,20 @@ def _hull(points: list[Place]) -> list[Place]:
             half.append(point)
         corners += half[:-1]
     return corners
+
+
+def _shown(rows: list[list[float]], points: Sequence[Point]) -> list[Place]:
+    """Return the corners of what a map shows of the convex hull of points."""
+    hull: Sequence[Point] = _hull([_place(rows, point) for point in points])
+    for plane in _SQUARE:
+        hull = _clip(hull, plane)
+    return _hull([(x, y) for x, y in hull])
+
+
+def _place(rows: list[list[float]], point: Point) -> Place:
+    """Return where a point is in a map's clip space."""
+    x, y = (dot(row[:3], point) + row[3] for row in rows)
+    return x, y
 
 
 def _area(a: Place, b: Place, c: Place) -> float:
@@ -213,14 +230,13 @@ def region_of(lookups: Lookups, clip_from_world: NDArray[np.float64]) -> NDArray
     Returns
     -------
     (4, 4) float64 or None
-        As ``clip_from_world``; None if it would hold most of the box.
+        As ``clip_from_world``; None if it would hold most of what the map shows.
     """
     view, box, margin = lookups
     rows = clip_from_world[:2].tolist()
-    ends = [list(corner) for corner in itertools.product(*zip(*box, strict=True))]
-    whole = _hull([_place(rows, corner) for corner in ends])
-    corners = _quadrilateral(_hull([_place(rows, point) for point in _seen_corners(view, ends)]))
-    if corners is None or not _area_of(corners) < _WORTH * _area_of(whole):
+    ends = list(itertools.product(*zip(*box, strict=True)))
+    corners = _quadrilateral(_shown(rows, _seen_corners(view, ends)))
+    if corners is None or not _area_of(corners) < _WORTH * _area_of(_shown(rows, ends)):
         return None
     across, down = clip_from_world[:2]
     found = np.zeros((4, 4))

@@ -401,10 +401,7 @@ cdef class NativeRenderer:
         frame.samples_axis = samples_axis
         frame.msaa_samples = msaa_samples
         set_view(&frame, clip_from_world, view_from_world, eye, number)
-        if frozen_clip_from_world is not None:
-            require(frozen_clip_from_world.shape[0] == 4 and frozen_clip_from_world.shape[1] == 4,
-                    "a matrix is 4x4")
-            frame.frozen_clip_from_world = &frozen_clip_from_world[0, 0]
+        set_frustum(&frame, frozen_clip_from_world)
         if rays is not None:
             require(rays.shape[0] == 3 and rays.shape[1] == 3, "rays must be (3, 3)")
             memcpy(frame.backdrop.ray, &rays[0, 0], 3 * sizeof(float))
@@ -475,8 +472,13 @@ cdef class NativeRenderer:
         eye,
         int cull,
         int64_t number,
+        const double[:, ::1] region=None,
     ):
-        """Draw the casters that were placed last into a square of ndc depths; see `render`."""
+        """Draw the casters that were placed last into a square of ndc depths; see `render`.
+
+        ``region``: the frustum of those that count. Returns how many faces count and are not known
+        to be hidden; 0 if hidden ones were looked for.
+        """
         cdef e3d_frame frame
         cdef e3d_targets outputs
         cdef e3d_stats stats
@@ -493,8 +495,18 @@ cdef class NativeRenderer:
         frame.draw_count = draw_list.casting.count
         frame.order = draw_list.casting.order
         frame.order_count = draw_list.casting.order_count
+        set_frustum(&frame, region)
         e3d_targets_set(&outputs, E3D_OUTPUT_NDC_DEPTH, floats_of(depths, frame.width, frame.height))
         self.draw(&frame, &outputs, &stats)
+        return stats.triangles_in_frustum if stats.rounds == 1 else 0
+
+
+cdef int set_frustum(e3d_frame *frame, const double[:, ::1] clip_from_world) except -1:
+    """Cull by the frustum of another camera, unless it is None."""
+    if clip_from_world is not None:
+        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+        frame.frozen_clip_from_world = &clip_from_world[0, 0]
+    return 0
 
 
 cdef int set_view(

@@ -29,6 +29,7 @@ from ..draw_list.lamps import lamp_slots
 from ..draw_list.light_list import Where
 from ..options import RenderOptions, shows_light
 from .protocol import Pass, Picture, Tools
+from .shadow_region import Lookups, lookups_of, region_of
 from .shadow_views import VIEWS, MapView, ShadowViews, Sight, sight_of
 
 #: The scene's nodes, their changes, the list's renewals, the culled side, and the spared slots.
@@ -86,6 +87,10 @@ def size_of(light: DirectLight) -> float:
     return float(sin(half) / cos(half))
 
 
+#: A map with fewer faces is drawn faster than its region is found.
+_MANY_FACES = 1 << 16
+
+
 class _Drawn:
     """The state that a map was drawn from: the scene's moment, then the nodes themselves.
 
@@ -97,6 +102,26 @@ class _Drawn:
         self.is_new = True
         self.compared: tuple[float, ...] | None = None
         self.nearest: float | None = None  # the least depth, if it was asked for
+        self.changes = 0  # pictures in a row before which its casters changed
+        self.faces = 0  # that it shows as a whole, unless hidden ones are left out
+        self.lookups: Lookups | None = None  # the only ones that it serves; None: any
+
+    def serves(self, lookups: Lookups | None) -> bool:
+        return self.lookups is None or self.lookups == lookups
+
+    def choose_region(self, seen: MapView, lookups: Lookups | None) -> NDArray[np.float64] | None:
+        """Return the region to draw, for a map that changes anyway before it is looked up again.
+
+        None: the whole map.
+        """
+        self.is_new, self.compared, self.nearest, self.lookups = True, None, None, None
+        self.casters.forget()
+        if lookups is None or self.changes < 2 or self.faces < _MANY_FACES:
+            return None
+        region = region_of(lookups, seen.clip_from_world)
+        if region is not None:
+            self.lookups = lookups
+        return region
 
 
 class ShadowMaps(Pass):
@@ -147,7 +172,8 @@ class ShadowMaps(Pass):
         for number, light, (_, place), views in seen:
             slot = draw_list.lights.slot_of(number)
             spared = () if place is None else lamp_slots(scene.data, slot, place)
-            self._update_light(number, light, views, (*moment, spared))
+            lookups = lookups_of(light, views, picture.view, bounds)
+            self._update_light(number, light, views, (*moment, spared), lookups)
         picture.shadow_maps = self._count, self._drawn
 
     def _views_of(
@@ -190,17 +216,22 @@ class ShadowMaps(Pass):
         return known[1]._replace(slices=shown)
 
     def _update_light(
-        self, number: int, light: DirectLight, views: ShadowViews, moment: Moment
+        self,
+        number: int,
+        light: DirectLight,
+        views: ShadowViews,
+        moment: Moment,
+        lookups: list[Lookups | None],
     ) -> None:
         count, size = len(views.maps), views.size
         kept = self._kept.get(number)
         if kept is None or not kept.fits(count, size):
             kept = self._kept[number] = _LightMaps(count, size)
-        for k, seen in enumerate(views.maps):
-            self._update_map(kept.depths[k], kept.drawn[k], seen, moment)
-        self._count += count
         taps, step = light.shadow_taps, round(256 * light.shadow_radius)
         soft, widest = size_of(light), widest_radius(light)
+        for k, (seen, served) in enumerate(zip(views.maps, lookups, strict=True)):
+            self._update_map(kept, k, seen, moment, served)
+        self._count += count
         self.tools.draw_list.native.set_shadow(
             number,
             kept.depths,
@@ -219,11 +250,20 @@ class ShadowMaps(Pass):
         )
 
     def _update_map(
-        self, depths: NDArray[np.float32], drawn: _Drawn, seen: MapView, moment: Moment
+        self,
+        kept: _LightMaps,
+        number: int,
+        seen: MapView,
+        moment: Moment,
+        lookups: Lookups | None,
     ) -> None:
-        """Draw a map, unless it would show the same again."""
-        clip = seen.clip_from_world.tobytes()
-        if not drawn.moment.differs(clip, moment):
+        """Draw a map, unless it would show the same again.
+
+        ``lookups``: all that look it up, where its region may be drawn alone.
+        """
+        drawn, clip = kept.drawn[number], seen.clip_from_world.tobytes()
+        if not drawn.moment.differs(clip, moment) and drawn.serves(lookups):
+            drawn.changes = 0
             return
         arrays, _, renewals, cull, spared = moment
         selection = np.empty((arrays.count + 63) // 64, np.uint64)
@@ -231,11 +271,17 @@ class ShadowMaps(Pass):
         for slot in spared:
             selection[slot >> 6] &= ~np.uint64(1 << (slot & 63))
         casters = placed_casters(arrays, selection)
-        if drawn.casters.differs(clip, arrays, renewals, cull, casters):
-            drawn.is_new, drawn.compared, drawn.nearest = True, None, None
+        has_changed = drawn.casters.differs(clip, arrays, renewals, cull, casters)
+        drawn.changes = drawn.changes + 1 if has_changed else 0
+        if has_changed or not drawn.serves(lookups):
+            region = drawn.choose_region(seen, lookups)
             native = self.tools.draw_list.native
             native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
-            self.tools.native.draw_shadow_map(native, depths, *seen, cull, id(drawn))
+            faces = self.tools.native.draw_shadow_map(
+                native, kept.depths[number], *seen, cull, id(drawn), region
+            )
+            if region is None:
+                drawn.faces = faces
             self._drawn += 1
             drawn.casters.done()
         drawn.moment.done()

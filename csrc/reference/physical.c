@@ -1,8 +1,8 @@
 /* Physical: light on physically based materials, as in glTF 2.0.
  * In: a surface with the values of its textures; the frame's lights, ambient light and environment. Out: its linear colour,
  * not yet clamped.
- * Rules: R49 (the material at a sample), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
- * R56 and R57 (sums), R168 (diffuse transmission), R211 (mirrors), R237 and R238 (area lights).
+ * Rules: R49 and R193 (the material at a sample), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
+ * R56 and R57 (sums), R168 (diffuse transmission), R211 (mirrors), R217 (wider lobes), R237 and R238 (area lights).
  * Sources: glTF 2.0, appendix B; Walter et al. 2007 (GGX); Heitz 2014 (Smith); Schlick 1994; Estevez and Kulla 2017 (sheen);
  * Fdez-Aguera 2019 (multiple scattering). */
 #include "reference/area_light.h"
@@ -12,6 +12,7 @@
 typedef struct lobe {
     float normal[3], facing; /* facing: n . v, of either sign */
     float nv, roughness, A, root;
+    float own, more; /* R193: A without what was added to it, and twice that */
 } lobe;
 
 /* R49: everything that doesn't depend on the light. */
@@ -45,23 +46,25 @@ static lobe make_lobe(const float normal[3], const float view[3], float roughnes
     for (int c = 0; c < 3; c++)
         out.normal[c] = normal[c];
     float alpha = out.roughness * out.roughness;
-    out.A = ref_min(alpha * alpha + wide, 1.0f);
+    out.own = alpha * alpha;
+    out.A = ref_min(out.own + wide, 1.0f);
+    out.more = 2.0f * (out.A - out.own);
     if (wide > 0.0f)
-        out.roughness = sqrtf(sqrtf(out.A));
+        out.roughness = sqrtf(sqrtf(ref_min(out.own + wide * 0.25f, 1.0f)));
     out.facing = ref_dot3(normal, view);
     out.nv = ref_max(fabsf(out.facing), E3D_LEAST_COSINE);
     out.root = sqrtf(out.A + (1.0f - out.A) * (out.nv * out.nv));
     return out;
 }
 
-/* R50: D times V. */
+/* R50 and R217: D times V. */
 static float reflect(const lobe *lobe, const half_vector *h, float nl)
 {
     float k[3], nh = nl + lobe->facing;
     ref_cross(lobe->normal, h->h, k);
-    float t = ref_dot3(k, k) + lobe->A * (nh * nh);
+    float t = ref_dot3(k, k) + lobe->A * (nh * nh), q = (lobe->A * (nh * nh)) / t;
     float u = lobe->nv * sqrtf(lobe->A + (1.0f - lobe->A) * (nl * nl)) + nl * lobe->root;
-    return nh > 0.0f ? ((lobe->A * E3D_OVER_2PI) * (h->square * h->square)) / ((t * t) * u) : 0.0f;
+    return nh > 0.0f ? (((lobe->own + lobe->more * q) * E3D_OVER_2PI) * (h->square * h->square)) / ((t * t) * u) : 0.0f;
 }
 
 static float fifth_power(float w)

@@ -161,14 +161,14 @@ static void map_normal(const e3d_texture_use *use, float scale, const ref_surfac
 
 /* ---- all of it ---- */
 
-/* R193: how much wider normals make a lobe. */
+/* R193: how much wider normals make a lobe: those of a texture, or of vertices. */
 static float wide_of(const ref_scene *scene, const ref_surface *s, const e3d_texture_use *normals, float scale)
 {
     if (!scene->frame->specular_antialiasing)
         return 0.0f;
-    if (!ref_slot_counts(normals, s) || !e3d_texture_get_view(normals->texture)->has_spread)
+    if (!ref_slot_counts(normals, s))
         return s->curvature;
-    return s->curvature + multiplied(normals, s, 3, scale * scale);
+    return e3d_texture_get_view(normals->texture)->has_spread ? multiplied(normals, s, 3, 2.0f * (scale * scale)) : 0.0f;
 }
 
 /* R141 */

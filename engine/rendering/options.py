@@ -234,10 +234,9 @@ class RenderOptions:
         ``filter="nearest"`` textures, sharp highlights. It takes nearly as long as as many samples
         a pixel without multisampling. Without it a face gets one colour in a pixel.
     specular_antialiasing : bool
-        In mode "lit": physically based materials are as rough as their normals differ within a
-        pixel, from curved meshes and from normal maps seen from afar, so that small highlights do
-        not flicker when something moves. Without it each sample shows the roughness of the
-        material.
+        In mode "lit": highlights of physically based materials are as wide as normals differ within
+        a pixel, of curved meshes and of normal maps seen from afar, so that small highlights do not
+        flicker when something moves. Without it each sample shows the roughness of the material.
     ambient_occlusion : bool
         In mode "lit": darken ambient light in corners and hollows.
     ambient_occlusion_radius : float, optional

@@ -29,12 +29,13 @@ from .backend_selection import resolve_backend
 from .camera_choice import CameraChoice
 from .draw_list.placement import Placing
 from .frame import Frame
-from .lens.lens_painter import LensPainter, Through
 from .options import OptionKeywords, RenderOptions, shows_options
 from .passes.protocol import Picture, Shot
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+    from .lens.lens_painter import LensPainter
 
 #: By method and samples per pixel: samples shaded along an axis, and multisamples of each.
 _SAMPLES = {
@@ -313,6 +314,8 @@ class Renderer(Closed):
         culling_camera: CameraChoice,
     ) -> Frame:
         """Draw a frame through a lens; the caller holds the turn."""
+        from .lens.lens_painter import LensPainter, Through
+
         frozen = frustum_of(scene, culling_camera, *self._size)
         if self._lens is None:
             self._lens = LensPainter(self._painter.how, self._turn)

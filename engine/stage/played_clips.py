@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..model.motion.clips import AnimationClip
-from ..model.motion.player import AnimationPlayer
 from .scene_bounds import sphere_of_points, world_points
 from .viewed_scene import NotInModelError, ViewedScene
+
+if TYPE_CHECKING:
+    from ..model.motion.clips import AnimationClip
+    from ..model.motion.player import AnimationPlayer
 
 #: The scene's extent is measured at so many times of a clip: so many a second, within limits, and
 #: fewer for scenes of very many points.
@@ -49,7 +52,7 @@ def stand_at(viewed: ViewedScene, index: int | None, time: float) -> None:
     clips = choose_clips(viewed, index)
     if not clips:
         raise NotInModelError(f"{viewed.title} has no animation")
-    player = AnimationPlayer(viewed.scene, clips)
+    player = _player(viewed, clips)
     player.loop = "once"
     player.play(clips)
     player.seek(time)
@@ -59,7 +62,7 @@ def play_clips(viewed: ViewedScene, index: int | None = None) -> None:
     """Make a viewed scene play clips in a loop; without clips it keeps the motion that it has."""
     clips = choose_clips(viewed, index)
     if clips:
-        player = viewed.player or AnimationPlayer(viewed.scene)
+        player = viewed.player or _player(viewed)
         player.play(clips)
         viewed.player = player
         viewed.period = player.duration or viewed.period
@@ -69,6 +72,12 @@ def play_clips(viewed: ViewedScene, index: int | None = None) -> None:
         viewed.swept = _swept(viewed, viewed.update)
         viewed.bounds = sphere_of_points(viewed.swept)
         viewed.update(0.0)
+
+
+def _player(viewed: ViewedScene, clips: tuple[AnimationClip, ...] | None = None) -> AnimationPlayer:
+    from ..model.motion.player import AnimationPlayer  # most models have no clips
+
+    return AnimationPlayer(viewed.scene, clips)
 
 
 def _swept(viewed: ViewedScene, move: Callable[[float], None]) -> np.ndarray:

@@ -87,6 +87,30 @@ def test_a_curved_mesh_flickers_less():
     assert spread[True] < 0.4 * spread[False]
 
 
+@pytest.mark.parametrize("distance", [5.0, 8.0])
+def test_what_is_dark_beside_a_highlight_stays_dark(distance):
+    """R217: a wider lobe doesn't have the tails of a rougher one, which show from afar."""
+    scene, camera = lit(ball(), distance)
+    large = light(scene, camera, False, SIDE * TIMES)
+    truth = large.reshape(SIDE, TIMES, SIDE, TIMES).mean(axis=(1, 3))
+    shown = {on: np.minimum(light(scene, camera, on), 1.0) for on in (True, False)}
+    error = {on: np.square(one - np.minimum(truth, 1.0)).mean() for on, one in shown.items()}
+    assert error[True] < 0.3 * error[False]
+
+
+def test_the_curvature_under_a_normal_map_does_not_count():
+    """R193: the map of a mesh that was baked takes it back."""
+    flat = e3d.Texture(np.full((4, 4, 4), (128, 128, 255, 255), np.uint8))
+    mesh = e3d.uv_sphere(0.5)
+    pictures = {}
+    for texture in (None, flat):
+        mesh.materials = [shiny(normal_texture=texture)]
+        scene, camera = lit(mesh, 8.0)
+        pictures[texture] = [light(scene, camera, on) for on in (True, False)]
+    assert np.array_equal(*pictures[flat])
+    assert not np.array_equal(*pictures[None])
+
+
 def test_flat_faces_and_level_0_of_a_normal_map_are_as_they_are():
     """No normal differs within a pixel of them, by R191 and R192."""
     near = bumpy()

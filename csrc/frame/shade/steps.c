@@ -220,7 +220,7 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
         wanted |= E3D_WANT_SURFACE;
     if (pass->frame->normals == E3D_NORMALS_FACET && bucket->lit && wanted & E3D_WANT_POSITION)
         wanted |= E3D_WANT_FACET;
-    if (wanted & E3D_WANT_NORMAL && e3d_widens_lobes(pass, bucket))
+    if (wanted & E3D_WANT_NORMAL && e3d_wants_curvature(pass, bucket))
         wanted |= E3D_WANT_CURVATURE;
     if (e3d_receives_exact_shadows(pass, bucket) && e3d_has_smooth_normals(bucket))
         wanted |= E3D_WANT_WEIGHTS;

@@ -26,7 +26,7 @@ int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
 /* Whether a bucket is lit; then the textures are read that light needs. */
 static int finds_light(const e3d_prepared *pass, const e3d_bucket *bucket) { return e3d_plans(pass, E3D_PLAN_COLORS) && bucket->lit; }
 
-int e3d_widens_lobes(const e3d_prepared *pass, const e3d_bucket *bucket)
+static int widens_lobes(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
     return pass->frame->specular_antialiasing && bucket->material->is_physical && finds_light(pass, bucket);
 }
@@ -39,11 +39,19 @@ static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f;
 
 int e3d_is_translucent_body(const e3d_bucket *bucket) { return bucket->translucent && bucket->material->physical.thickness != 0.0f; }
 
+int e3d_wants_curvature(const e3d_prepared *pass, const e3d_bucket *bucket)
+{
+    const e3d_material *m = bucket->material;
+    int base = !e3d_texture_counts(bucket, &m->normal_texture);
+    int coat = is_coated(&m->physical) && !e3d_texture_counts(bucket, &m->clearcoat_normal_texture);
+    return widens_lobes(pass, bucket) && (base || coat);
+}
+
 /* Whether a slot's texture tells how far normals spread, and lobes want to know. */
 static int reads_spread(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot, const e3d_texture_use *use)
 {
     int holds_normals = slot == E3D_SLOT_NORMAL || slot == E3D_SLOT_CLEARCOAT_NORMAL;
-    return holds_normals && e3d_texture_get_view(use->texture)->has_spread && e3d_widens_lobes(pass, bucket);
+    return holds_normals && e3d_texture_get_view(use->texture)->has_spread && widens_lobes(pass, bucket);
 }
 
 /* Whether the fourth channel of a slot is read. */
@@ -309,13 +317,16 @@ static void add_rare(const e3d_texture_memory *textures, const e3d_physical *p, 
     brdf->is_rare = brdf->transmits || brdf->translucent || brdf->anisotropic || brdf->iridescent;
 }
 
-/* R193: by how much the levels of a normal texture widen a lobe. */
-static e3d_varying spread_of(const e3d_texture_memory *textures, e3d_texture_slot slot, float scale)
+/* R193: how much wider normals make a lobe: those of a texture, or of vertices. */
+static e3d_varying wide_of(const e3d_shade_memory *memory, e3d_texture_slot slot, float scale)
 {
+    const e3d_texture_memory *textures = &memory->textures;
     int32_t texture = textures->read.of_slot[slot];
-    if (texture < 0 || !textures->read.read[texture].view->has_spread)
+    if (texture < 0)
+        return (e3d_varying){memory->batch.curvature, 1.0f};
+    if (!textures->read.read[texture].view->has_spread)
         return (e3d_varying){NULL, 0.0f};
-    return e3d_varying_of(textures, slot, 3, scale * scale);
+    return e3d_varying_of(textures, slot, 3, 2.0f * (scale * scale));
 }
 
 static void add_mirrors(const e3d_bucket *bucket, const e3d_shade_memory *memory, e3d_brdf *brdf)
@@ -332,9 +343,9 @@ static e3d_brdf brdf_of(const e3d_prepared *pass, const e3d_bucket *bucket, cons
     const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
     e3d_brdf brdf = {
-        .is_widened = e3d_widens_lobes(pass, bucket),
-        .spread = spread_of(textures, E3D_SLOT_NORMAL, m->normal_scale),
-        .coat_spread = spread_of(textures, E3D_SLOT_CLEARCOAT_NORMAL, p->clearcoat_normal_scale),
+        .is_widened = widens_lobes(pass, bucket),
+        .wide = wide_of(memory, E3D_SLOT_NORMAL, m->normal_scale),
+        .coat_wide = wide_of(memory, E3D_SLOT_CLEARCOAT_NORMAL, p->clearcoat_normal_scale),
         .occlusion_strength = p->occlusion_strength,
         .transmits = bucket->transmits,
         .translucent = bucket->translucent,

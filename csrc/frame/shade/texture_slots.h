@@ -7,8 +7,8 @@
 #include "frame/pass/prepared.h"
 #include "frame/shade/job.h"
 
-/* R193: whether the lobes of a bucket are as wide as the normals in a pixel ask for. */
-int e3d_widens_lobes(const e3d_prepared *pass, const e3d_bucket *bucket);
+/* R193: whether lobes of a bucket are as wide as the curvature of its mesh asks for. */
+int e3d_wants_curvature(const e3d_prepared *pass, const e3d_bucket *bucket);
 /* R168: whether a bucket's surfaces are translucent, and bound bodies that have a thickness. */
 int e3d_is_translucent_body(const e3d_bucket *bucket);
 /* Whether a material's faces are shaded with e3d_read_textures, and not just with a base colour. */

@@ -103,8 +103,8 @@ typedef struct e3d_brdf {
     E3D_EACH_VARYING(E3D_VARYING)
 #define E3D_VARYING_COLOR(slot, name, factors) e3d_varying name[3];
     E3D_EACH_VARYING_COLOR(E3D_VARYING_COLOR)
-    int is_widened;                  /* R193: by the batch's curvature, and by */
-    e3d_varying spread, coat_spread; /* what normal textures leave out */
+    int is_widened; /* R193: by these */
+    e3d_varying wide, coat_wide;
     float occlusion_strength;
     int has_coat, has_sheen;
     int is_grey;         /* all channels have the same reflectance */

@@ -7,14 +7,15 @@ writable one; `reader_registry` and `writer_registry` list them.
 from __future__ import annotations
 
 import importlib
-import pkgutil
 from collections.abc import Iterator
 from types import ModuleType
 
 
 def modules(*, writing: bool) -> Iterator[ModuleType]:
     """Import and yield the modules here and in subpackages: the writers, or all others."""
-    for module in pkgutil.walk_packages(__path__, __name__ + "."):
+    from pkgutil import walk_packages
+
+    for module in walk_packages(__path__, __name__ + "."):
         name = module.name.rpartition(".")[2]
         if (name.endswith("_writer") or name.startswith("written_")) == writing:
             yield importlib.import_module(module.name)

@@ -11,13 +11,14 @@ import re
 
 from ...errors import FileFormatError
 from ..addresses.linked_urls import linked_files
-from ..reading.documents import Document, SceneRecord
+from ..reading.documents import Document
 from ..reading.json_values import JsonValue, parsed_json
 from ..reading.posed_parts import MAX_REPEATED, counts_of, document_objects
 from ..reading.reader_registry import Reader
 from ..reading.sources import Source
 from ..reading.text import shown
 from ..reading.warning_list import WarningList
+from ..scenes.document_trees import SceneRecord
 from .scene_looks import SceneLooks
 from .scene_meshes import SceneMeshes
 from .scene_tree import links_of, pose_parts, shown_parts

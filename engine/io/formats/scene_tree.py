@@ -13,10 +13,10 @@ import numpy as np
 from ...base import linalg
 from ...errors import FileFormatError
 from ...model.geometry.mesh import Mesh
-from ..reading.documents import Place, SceneRecord
 from ..reading.json_values import JsonValue
 from ..reading.posed_parts import PosedPart
 from ..reading.sources import Source
+from ..scenes.document_trees import Place, SceneRecord
 
 # As an object of the document, each instance takes some kilobytes.
 _MAX_OBJECTS = 50_000

@@ -6,29 +6,17 @@ imported here: who has such an object has imported its library.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from importlib import import_module
 from typing import Any
 
 from ...model.scene.scene import Scene
-from .cad_scenes import scene_from_cad
-from .meshio_scenes import scene_from_meshio
-from .open3d_scenes import scene_from_open3d
-from .pandas_scenes import scene_from_pandas
-from .pyvista_scenes import scene_from_pyvista
-from .trimesh_scenes import scene_from_trimesh
-from .vedo_scenes import scene_from_vedo
 
 #: Libraries of CAD, whose meshes have the edges of their models, and whose +Z is up.
 CAD_LIBRARIES = ("OCP", "build123d", "cadquery")
-_SCENES: dict[str, Callable[[Any], Scene | None]] = {
-    **dict.fromkeys(CAD_LIBRARIES, scene_from_cad),
-    "meshio": scene_from_meshio,
-    "open3d": scene_from_open3d,
-    "pandas": scene_from_pandas,
-    "pyvista": scene_from_pyvista,
-    "trimesh": scene_from_trimesh,
-    "vedo": scene_from_vedo,
-}
+#: By library: the X of the function ``scene_from_X`` in the module ``X_scenes``.
+_KINDS = dict.fromkeys(CAD_LIBRARIES, "cad")
+_KINDS |= {name: name for name in ("meshio", "open3d", "pandas", "pyvista", "trimesh", "vedo")}
 
 
 def scene_of_library(thing: Any) -> Scene | None:
@@ -38,8 +26,15 @@ def scene_of_library(thing: Any) -> Scene | None:
     """
     library = library_of(thing)
     if library is not None:
-        return _SCENES[library](thing)
+        return _scene_from(library, thing)
     return _scene_of_several(thing) if isinstance(thing, list | tuple) else None
+
+
+def _scene_from(library: str, thing: Any) -> Scene | None:
+    kind = _KINDS[library]
+    module = import_module(f".{kind}_scenes", __package__)
+    scene: Scene | None = getattr(module, f"scene_from_{kind}")(thing)
+    return scene
 
 
 def _scene_of_several(things: Sequence[Any]) -> Scene | None:
@@ -47,7 +42,7 @@ def _scene_of_several(things: Sequence[Any]) -> Scene | None:
     whole = Scene()
     for thing in things:
         library = library_of(thing)
-        scene = None if library is None else _SCENES[library](thing)
+        scene = None if library is None else _scene_from(library, thing)
         if scene is None:
             return None
         for node in scene.nodes:
@@ -65,4 +60,4 @@ def library_of(thing: Any) -> str | None:
         are_cad = len(found) == len(thing) > 0 and all(one in CAD_LIBRARIES for one in found)
         return found[0] if are_cad else None
     packages = (kind.__module__.partition(".")[0] for kind in type(thing).__mro__)
-    return next((package for package in packages if package in _SCENES), None)
+    return next((package for package in packages if package in _KINDS), None)

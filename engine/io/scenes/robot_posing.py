@@ -11,8 +11,8 @@ from typing import Any
 
 from ...errors import InvalidArgumentError
 from ...model.motion.joints import checked_values, joint_pose, rest_value
-from ..reading.documents import TreeRecord
 from ..reading.robot_options import RobotOptionError
+from .document_trees import TreeRecord
 
 
 def with_joints(tree: TreeRecord, values: Mapping[str, Any] | None) -> TreeRecord:

@@ -23,8 +23,6 @@ from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight, PointLight
 from ...model.scene.scene import Scene
 from ..loaders import CameraRecord, Document, LightRecord, load_document
 from ..reading.sources import File
-from .scene_records import fill_scene
-from .tree_records import choose_variant, fill_from_tree
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -94,15 +92,21 @@ def scene_from_document(document: Document, variant: str | int | None = None) ->
     scene = Scene() if document.made is None else document.made.copy()
     scene.warnings = list(document.warnings)
     if variant is not None:
+        from .tree_records import choose_variant
+
         choose_variant(document.tree, variant)
     if document.made is not None:
         return scene
     if document.tree is not None:
+        from .tree_records import fill_from_tree
+
         if document.states_sides:
             scene.ambient = (0, 0, 0)  # glTF has no ambient light
         fill_from_tree(scene, document.tree)
         return scene
     if document.scene is not None:
+        from .scene_records import fill_scene
+
         fill_scene(scene, document.scene)
         return scene
     for name, mesh, pose in document.objects:

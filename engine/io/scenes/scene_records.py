@@ -22,8 +22,8 @@ from ...model.scene.scene import Scene
 from ...model.scene.surroundings import SCENE_VALUES
 from ...model.spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
 from ..formats.scene_tree import mesh_of
-from ..reading.documents import Place, SceneRecord
 from ..reading.json_values import JsonValue
+from .document_trees import Place, SceneRecord
 from .motion_records import MOTION_KEYS, fill_animator
 from .object_kinds import KINDS
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 from typing import Any
 
 from ...errors import FileFormatError
-from ..reading.documents import DocumentObject, TreeRecord
+from ..reading.documents import DocumentObject
 from ..reading.posed_parts import PosedPart, counts_of, document_objects
 from ..reading.sources import Source
+from .document_trees import TreeRecord
 from .tree_posing import RestPose, ShownNode
 
 # Each takes some kilobytes, however small its entry.

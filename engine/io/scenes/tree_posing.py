@@ -19,7 +19,7 @@ from ...model.geometry.normals import unit_vectors
 from ...model.geometry.values import put_values
 from ...model.geometry.vertex_attributes import attributes_of
 from ...model.materials.linear_colors import floats_are_linear, marked
-from ..reading.documents import MeshRecord, NodeRecord, SkinRecord, TreeRecord
+from .document_trees import MeshRecord, NodeRecord, SkinRecord, TreeRecord
 
 _IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
 # Vertices deformed at a time.

@@ -26,7 +26,7 @@ from ...model.scene.instances import InstancedMesh
 from ...model.scene.lights import DIRECT_LIGHTS, Light, PointLight
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
-from ..reading.documents import (
+from .document_trees import (
     ClipRecord,
     LampRecord,
     LensRecord,

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...base import linalg
 from ...model.geometry.mesh import Mesh
-from ..reading.documents import NodeRecord, TreeRecord
+from .document_trees import NodeRecord, TreeRecord
 from .tree_posing import RestPose
 
 # If more vertices than this would have to be placed, the corners of the meshes' boxes are placed

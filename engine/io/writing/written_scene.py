@@ -26,7 +26,7 @@ from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
 from ...model.scene.nodes import Node
 from ...model.scene.placements import Placements
 from ...model.scene.scene import Scene
-from ..reading.documents import (
+from ..scenes.document_trees import (
     ChannelRecord,
     ClipRecord,
     LampRecord,

@@ -21,6 +21,7 @@ enum { BRDF_VECTORS = 4 };
 typedef struct lobe_lanes {
     vf32 facing; /* n . v, of either sign */
     vf32 nv, roughness, A, root;
+    vf32 own, more; /* R193: A without what was added to it, and twice that */
 } lobe_lanes;
 
 /* One vector of a batch: its surface, and the light on it so far. What the batch holds is read again there, since loads cost
@@ -55,15 +56,17 @@ static ALWAYS_INLINE void lobe_width(vf32 roughness, lobe_lanes *lobe)
 {
     lobe->roughness = v_min(v_max(roughness, v_setf(E3D_LEAST_ROUGHNESS)), v_setf(1.0f));
     vf32 alpha = v_mul(lobe->roughness, lobe->roughness);
-    lobe->A = v_mul(alpha, alpha);
+    lobe->A = lobe->own = v_mul(alpha, alpha);
+    lobe->more = v_setf(0.0f);
 }
 
 /* R193 */
-static ALWAYS_INLINE void lobe_widen(const e3d_batch *batch, const e3d_varying *spread, int i, lobe_lanes *lobe)
+static ALWAYS_INLINE void lobe_widen(vf32 wide, lobe_lanes *lobe)
 {
-    vf32 wide = v_add(v_loadf(batch->curvature + i), varying_at(spread, i));
-    lobe->A = v_min(v_add(lobe->A, wide), v_setf(1.0f));
-    lobe->roughness = v_self(v_gt(wide, v_setf(0.0f)), v_sqrt(v_sqrt(lobe->A)), lobe->roughness);
+    vf32 one = v_setf(1.0f), some = v_min(v_add(lobe->own, v_mul(wide, v_setf(0.25f))), one);
+    lobe->A = v_min(v_add(lobe->own, wide), one);
+    lobe->more = v_mul(v_setf(2.0f), v_sub(lobe->A, lobe->own));
+    lobe->roughness = v_self(v_gt(wide, v_setf(0.0f)), v_sqrt(v_sqrt(some)), lobe->roughness);
 }
 
 static ALWAYS_INLINE void lobe_begin(const vf32 normal[3], const vf32 view[3], lobe_lanes *lobe)
@@ -103,7 +106,7 @@ static ALWAYS_INLINE void brdf_begin(const e3d_batch *batch, const e3d_texture_b
     brdf_view(lighting->eye, position, i, at->view);
     lobe_width(varying_at(&brdf->roughness, i), &at->base);
     if (brdf->is_widened)
-        lobe_widen(batch, &brdf->spread, i, &at->base);
+        lobe_widen(varying_at(&brdf->wide, i), &at->base);
     lobe_begin(normal, at->view, &at->base);
     at->metallic = varying_at(&brdf->metallic, i);
     vf32 rest = v_sub(one, at->metallic), f90 = v_add(specular, v_mul(v_sub(one, specular), at->metallic));
@@ -120,7 +123,7 @@ static ALWAYS_INLINE void brdf_begin(const e3d_batch *batch, const e3d_texture_b
         load_three(coat_normals(m, brdf), i, normal);
         lobe_width(varying_at(&brdf->coat_roughness, i), &at->coat);
         if (brdf->is_widened)
-            lobe_widen(batch, &brdf->coat_spread, i, &at->coat);
+            lobe_widen(varying_at(&brdf->coat_wide, i), &at->coat);
         lobe_begin(normal, at->view, &at->coat);
     }
     if (has_sheen) {

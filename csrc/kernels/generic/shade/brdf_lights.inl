@@ -21,15 +21,16 @@ typedef struct half_lanes {
     vf32 h[3], square;
 } half_lanes;
 
-/* R50: D times V. */
+/* R50 and R217: D times V. */
 static ALWAYS_INLINE vf32 lobe_reflect(const lobe_lanes *lobe, const vf32 normal[3], const half_lanes *h, vf32 nl)
 {
     vf32 k[3], nh = v_add(nl, lobe->facing), zero = v_setf(0.0f);
     cross_three(normal, h->h, k);
-    vf32 t = v_add(dot_three(k, k), v_mul(lobe->A, v_mul(nh, nh)));
+    vf32 core = v_mul(lobe->A, v_mul(nh, nh)), t = v_add(dot_three(k, k), core);
     vf32 root = v_sqrt(v_add(lobe->A, v_mul(v_sub(v_setf(1.0f), lobe->A), v_mul(nl, nl))));
     vf32 u = v_add(v_mul(lobe->nv, root), v_mul(nl, lobe->root));
-    vf32 above = v_mul(v_mul(lobe->A, v_setf(E3D_OVER_2PI)), v_mul(h->square, h->square));
+    vf32 width = v_add(lobe->own, v_mul(lobe->more, v_div(core, t)));
+    vf32 above = v_mul(v_mul(width, v_setf(E3D_OVER_2PI)), v_mul(h->square, h->square));
     return v_self(v_gt(nh, zero), v_div(above, v_mul(v_mul(t, t), u)), zero);
 }
 

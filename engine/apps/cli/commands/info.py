@@ -13,7 +13,8 @@ import warnings
 from ....base.linalg import transform_points
 from ....errors import Engine3DError, Engine3DWarning, printable
 from ....io.loaders import load_document
-from ....io.reading.documents import Document, JointRecord, TreeRecord
+from ....io.reading.documents import Document
+from ....io.scenes.document_trees import JointRecord, TreeRecord
 from ....io.scenes.tree_totals import rest_bounds, triangle_count
 from ....model.geometry.mesh import Mesh
 from ....model.materials.material import Material, textures_of

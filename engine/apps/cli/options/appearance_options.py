@@ -95,7 +95,7 @@ def _add_smoothing(group) -> None:
     group.add_argument(
         "--specular-antialiasing",
         action=argparse.BooleanOptionalAction,
-        help="physically based materials are rougher where normals differ within a pixel, so that "
+        help="highlights are wider where normals differ within a pixel, so that "
         "small highlights do not flicker; on by default",
     )
     group.add_argument(

@@ -15,13 +15,14 @@ from ....base import linalg
 from ....errors import FileFormatError
 from ....model.geometry.twins import twin_of
 from ....model.materials.material import Material
-from ...reading.documents import Document, MeshRecord, NodeRecord, TreeRecord
+from ...reading.documents import Document
 from ...reading.posed_parts import MAX_REPEATED
 from ...reading.reader_registry import Reader
 from ...reading.sources import Source
 from ...reading.text import shown
 from ...reading.warning_list import WarningList
 from ...reading.xml_elements import Element
+from ...scenes.document_trees import MeshRecord, NodeRecord, TreeRecord
 from ...scenes.tree_objects import tree_counts, tree_objects
 from ..threemf.threemf_model import METRES
 from .dae_file import DaeFile

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...reading.documents import Document, TreeRecord
+from ...reading.documents import Document
 from ...reading.reader_registry import Reader
 from ...reading.sources import Source
+from ...scenes.document_trees import TreeRecord
 from ...scenes.tree_objects import tree_counts, tree_objects
 from ...scenes.tree_posing import shown_nodes
 from .gltf_accessors import GltfAccessors

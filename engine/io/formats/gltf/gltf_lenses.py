@@ -10,7 +10,7 @@ import math
 from functools import partial
 from typing import Any
 
-from ...reading.documents import LampRecord, LensRecord
+from ...scenes.document_trees import LampRecord, LensRecord
 from .gltf_file import LIGHTS, Entry, GltfFile
 from .gltf_lists import SoundList, sound_list
 

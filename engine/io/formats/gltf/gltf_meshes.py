@@ -24,9 +24,9 @@ from ....model.geometry.values import Values, joined_rows, put_values
 from ....model.materials.linear_colors import floats_are_linear
 from ....model.materials.material import Material
 from ....model.materials.textures import PlacedTexture
-from ...reading.documents import MeshRecord
 from ...reading.smoothing import join_seams
 from ...reading.text import shown
+from ...scenes.document_trees import MeshRecord
 from .gltf_buffers import GltfBuffers
 from .gltf_file import DamagedError, Entry, GltfFile
 from .gltf_materials import GltfMaterials

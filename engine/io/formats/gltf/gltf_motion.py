@@ -14,7 +14,8 @@ from typing import Any, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from ....choices import Interpolation, MotionPath
-from ...reading.documents import (
+from ...reading.text import shown
+from ...scenes.document_trees import (
     ChannelRecord,
     ClipRecord,
     MeshRecord,
@@ -22,7 +23,6 @@ from ...reading.documents import (
     PropertyRecord,
     SkinRecord,
 )
-from ...reading.text import shown
 from .gltf_accessors import GltfAccessors
 from .gltf_file import DamagedError, Entry, GltfFile, once
 from .gltf_lists import SoundList, sound_list

@@ -14,9 +14,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ....base import linalg
-from ...reading.documents import MeshRecord, NodeRecord, SkinRecord
 from ...reading.posed_parts import without_rounding
 from ...reading.text import shown
+from ...scenes.document_trees import MeshRecord, NodeRecord, SkinRecord
 from .gltf_accessors import GltfAccessors
 from .gltf_file import LIGHTS, DamagedError, Entry, GltfFile, once
 from .gltf_lists import SoundList

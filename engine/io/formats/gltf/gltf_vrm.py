@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...reading.documents import NodeRecord, TreeRecord
+from ...scenes.document_trees import NodeRecord, TreeRecord
 from .gltf_file import GltfFile
 
 _OLD, _NEW = "VRM", "VRMC_vrm"

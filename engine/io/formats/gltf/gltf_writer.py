@@ -15,7 +15,7 @@ from ....base.files.atomic_write import AtomicFiles, Files, StreamFiles
 from ....errors import InvalidArgumentError, located, warn
 from ....model.geometry.mesh import Mesh
 from ....model.scene.scene import Scene
-from ...reading.documents import TreeRecord
+from ...scenes.document_trees import TreeRecord
 from ...writing.writer_registry import Writer
 from ...writing.written_scene import tree_of_scene
 from .written_tree import GltfTree

@@ -14,8 +14,8 @@ from ....model.geometry.mesh import Mesh
 from ....model.geometry.movers import shares
 from ....model.geometry.normals import vertex_normals
 from ....model.materials.colors import linear_rows
-from ...reading.documents import MeshRecord
 from ...reading.vertex_values import usable_normals
+from ...scenes.document_trees import MeshRecord
 from ...writing.written_scene import materials_of_faces
 from .gltf_meshes import MOST_BENDING, tangent_set
 from .gltf_primitives import compact

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ...reading.documents import ClipRecord, PropertyRecord, TreeRecord
+from ...scenes.document_trees import ClipRecord, PropertyRecord, TreeRecord
 from .gltf_pointers import POINTER, pointer_of
 from .written_materials import GltfMaterialList
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...reading.documents import ClipRecord, LampRecord, LensRecord, NodeRecord, TreeRecord
+from ...scenes.document_trees import ClipRecord, LampRecord, LensRecord, NodeRecord, TreeRecord
 from ...writing.losses import lost_mirrors, not_held
 from .gltf_file import LIGHTS
 from .gltf_nodes import INSTANCING, VISIBILITY

@@ -16,18 +16,12 @@ import numpy as np
 from ....base import linalg
 from ....choices import ShapesOf
 from ....errors import FileFormatError
-from ...reading.documents import (
-    Document,
-    JointRecord,
-    MeshRecord,
-    NodeRecord,
-    RobotRecord,
-    TreeRecord,
-)
+from ...reading.documents import Document
 from ...reading.posed_parts import MAX_REPEATED
 from ...reading.reader_registry import Reader
 from ...reading.sources import Source
 from ...reading.warning_list import WarningList
+from ...scenes.document_trees import JointRecord, MeshRecord, NodeRecord, RobotRecord, TreeRecord
 from ...scenes.robot_posing import with_joints
 from ...scenes.tree_objects import tree_counts, tree_objects
 from .urdf_elements import UrdfText

@@ -6,7 +6,9 @@
 
 #include <stdint.h>
 
+#include "e3d_backends.h"
 #include "e3d_scene.h"
+#include "e3d_status.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,7 +18,7 @@ extern "C" {
 typedef struct e3d_lens_face {
     int64_t start;
     int32_t width, height;
-    double axis[3]; /* camera space: where it looks */
+    double axes[3][3]; /* camera space: right, up and back, each along an axis */
 } e3d_lens_face;
 
 /* Where a pixel of the lens looks: 1/256 pixel of a face, its top left corner is 0; and half the widths of its filter, at least
@@ -48,7 +50,8 @@ typedef struct e3d_lens_colors {
     uint8_t *to;                  /* (height, width, 4) */
 } e3d_lens_colors;
 
-void e3d_lens_draw(const e3d_lens_colors *colors, int threads);
+/* threads: at least 1; their number doesn't change the bytes. */
+e3d_status e3d_lens_draw(const e3d_lens_colors *colors, e3d_backend backend, int threads);
 
 /* What the faces show: arrays over their pixels, as frames have them. */
 typedef struct e3d_lens_shown {
@@ -67,12 +70,15 @@ typedef struct e3d_lens_scene {
     int any_side;               /* 0: faces are culled */
 } e3d_lens_scene;
 
+/* What the rays meet, (height, width) each; NULL: not asked for. */
 typedef struct e3d_lens_found {
-    int32_t *source;       /* (height, width) the pixel of the faces whose values it takes; -1: none */
-    int32_t *ids;          /* (height, width, 3) object, instance and face; -1: none */
-    double *distance;      /* (height, width) along the ray, in camera space; 0: none */
-    float *barycentric;    /* NULL, or (height, width, 3) of exact hits */
-    uint8_t *exact;        /* (height, width) 1 where barycentric has values */
+    int32_t *source; /* the pixel of the faces whose values it takes; -1: none */
+    int32_t *object_id, *instance_id, *face_id; /* -1: none */
+    float *depth, *range;  /* the distance along the ray, in camera space; 0: none */
+    int is_along_axis;     /* depth is measured along the lens's axis */
+    double *distance;      /* range before it is rounded */
+    float *barycentric;    /* (height, width, 3) of exact hits */
+    uint8_t *exact;        /* 1 where barycentric has values; NULL only with it */
 } e3d_lens_found;
 
 /* Finds for each pixel the face that its ray meets first. rays: (height, width, 3) unit, camera space. near, far: of the faces'
@@ -81,6 +87,24 @@ int64_t e3d_lens_find(const e3d_lens_scene *scene, const e3d_lens_face *faces, c
                       const double *rays, int32_t width, int32_t height, const double world_from_view[16],
                       double near, double far, const e3d_lens_shown *shown, const e3d_lens_found *found,
                       int threads);
+
+enum { E3D_LENS_FACES = 6 };
+
+/* Values of the faces' pixels, those of the sources of a lens's pixels (R208). */
+typedef struct e3d_lens_values {
+    const e3d_lens_face *faces;
+    int32_t face_count;           /* at most E3D_LENS_FACES */
+    const e3d_lens_pixel *pixels; /* (height, width) */
+    const int32_t *source;        /* (height, width) */
+    const uint8_t *from;          /* a row of `bytes` a pixel of the faces */
+    int32_t bytes;                /* at least 12 if turned */
+    int is_turned;                /* the first three numbers, f32, are of a vector in the axes of the face */
+    uint8_t none;                 /* each byte where there is no source */
+    int32_t width, height;
+    uint8_t *to;                  /* (height, width, bytes) */
+} e3d_lens_values;
+
+void e3d_lens_take(const e3d_lens_values *values, int threads);
 
 #ifdef __cplusplus
 }

@@ -15,6 +15,7 @@
 #include "kernels/types/casters.h"
 #include "kernels/types/fog.h"
 #include "kernels/types/fragments.h"
+#include "kernels/types/lens.h"
 #include "kernels/types/lobe.h"
 #include "kernels/types/msaa_mixed.h"
 #include "kernels/types/records.h"

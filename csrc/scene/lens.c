@@ -6,6 +6,7 @@
  */
 #include "e3d_lens.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "base/fpenv.h"
@@ -28,7 +29,7 @@ typedef struct placed {
     int32_t object, instance, face;
     int32_t slot; /* -1: rays do not know it */
     double corners[3][3];
-    double normal[3], offset;
+    double normal[3], offset; /* the normal in camera space */
     size_t used; /* by which pixel, counted from 1 */
 } placed;
 
@@ -53,7 +54,8 @@ typedef struct job {
     const double *rays;
     int32_t width, height;
     double world[12], eye[3], near, far;
-    int is_rigid; /* a unit in camera space is one in the world */
+    int is_rigid;    /* a unit in camera space is one in the world */
+    int needs_place; /* of a face that shows all around: more than IDs is asked for */
     const e3d_lens_shown *shown;
     const e3d_lens_found *found;
     int64_t *cast; /* by band */
@@ -112,13 +114,16 @@ static void place(const job *j, const candidate *c, placed *to)
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 3; k++)
             sides[i][k] = to->corners[i + 1][k] - to->corners[0][k];
+    double normal[3];
     for (int k = 0; k < 3; k++) {
         int l = (k + 1) % 3, m = (k + 2) % 3;
-        to->normal[k] = sides[0][l] * sides[1][m] - sides[0][m] * sides[1][l];
+        normal[k] = sides[0][l] * sides[1][m] - sides[0][m] * sides[1][l];
     }
     const double from[3] = {to->corners[0][0] - j->eye[0], to->corners[0][1] - j->eye[1],
                             to->corners[0][2] - j->eye[2]};
-    to->offset = e3d_dot3(to->normal, from);
+    to->offset = e3d_dot3(normal, from);
+    for (int k = 0; k < 3; k++)
+        to->normal[k] = (j->world[k] * normal[0] + j->world[4 + k] * normal[1]) + j->world[8 + k] * normal[2];
 }
 
 /* Returns where a candidate is; n: its number among those of this pixel. */
@@ -159,46 +164,58 @@ static void show(const job *j, int32_t source, candidate *c)
     c->reached = 0;
 }
 
-/* Returns whether the four pixels whose centres lie around a ray show the same face; (x, y): the first of them. */
-static int is_uniform(const job *j, const e3d_lens_face *face, int32_t x, int32_t y)
+/* Where a pixel of the lens looks on its face. */
+typedef struct spot {
+    const e3d_lens_face *face;
+    int32_t x, y;      /* the pixel that the ray passes */
+    int32_t left, top; /* the first of the four whose centres lie around the ray */
+} spot;
+
+static spot spot_of(const job *j, size_t i)
 {
-    int64_t at = face->start + (int64_t)y * face->width + x;
-    const int32_t *arrays[3] = {j->shown->face_id, j->shown->object_id, j->shown->instance_id};
-    int32_t differ = 0;
-    for (int k = 0; k < 3 && !differ; k++) {
-        const int32_t *one = arrays[k] + at, *below = one + face->width;
-        differ = (one[0] ^ one[1]) | (one[0] ^ below[0]) | (one[0] ^ below[1]);
-    }
-    return !differ;
+    const e3d_lens_pixel *p = j->pixels + i;
+    return (spot){j->faces + p->face, p->x >> 8, p->y >> 8, (p->x - HALF) >> 8, (p->y - HALF) >> 8};
 }
 
-/* Returns whether the sixteen pixels around a ray show one object, or nothing; (x, y): the first of the inner four. */
-static int is_inside(const job *j, const e3d_lens_face *face, int32_t x, int32_t y)
+static int64_t pixel_of(const spot *at, int32_t x, int32_t y) { return at->face->start + (int64_t)y * at->face->width + x; }
+
+typedef int32_t v4i __attribute__((vector_size(16)));
+
+static inline v4i load4(const int32_t *from)
 {
-    const int32_t *one = j->shown->object_id + face->start + (int64_t)(y - 1) * face->width + x - 1;
-    int32_t here = *one, differ = 0;
-    for (int row = 0; row < 4; row++, one += face->width)
-        differ |= (one[0] ^ here) | (one[1] ^ here) | (one[2] ^ here) | (one[3] ^ here);
-    return !differ;
+    v4i four;
+    memcpy(&four, from, sizeof four);
+    return four;
 }
 
-/* Gathers the faces around a ray, that of the pixel it passes first; returns how many. *nothing: a pixel that shows none.
- * Four pixels are enough within an object, and sixteen are looked at where it ends. */
-static int gather(const job *j, size_t i, candidate list[NEAR], recent *kept, int32_t *nothing)
+/* Returns whether the sixteen pixels around a ray show one object, or nothing. */
+static inline int is_inside(const job *j, const spot *at)
+{
+    const int32_t *one = j->shown->object_id + pixel_of(at, at->left - 1, at->top - 1);
+    ptrdiff_t row = at->face->width;
+    v4i here = (v4i){} + one[0];
+    v4i differ = ((load4(one) ^ here) | (load4(one + row) ^ here)) |
+                 ((load4(one + 2 * row) ^ here) | (load4(one + 3 * row) ^ here));
+    return !((differ[0] | differ[1]) | (differ[2] | differ[3]));
+}
+
+/* Returns whether the four pixels around a ray show one number. */
+static inline int is_one(const int32_t *first, ptrdiff_t row)
+{
+    return !(((first[0] ^ first[1]) | (first[0] ^ first[row])) | (first[0] ^ first[row + 1]));
+}
+
+/* Gathers the faces around a ray, that of the pixel it passes first; returns how many. *nothing: a pixel that shows none. */
+static int gather(const job *j, size_t i, const spot *at, int around, candidate list[NEAR], recent *kept, int32_t *nothing)
 {
     /* From the inner pixel nearest to the ray, the ray being to its right and below: the inner four, then those around. */
     static const int8_t AROUND[NEAR][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {-1, 0}, {0, -1}, {-1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 1}, {1, 2}, {-1, -1}, {2, -1}, {-1, 2}, {2, 2}};
-    const e3d_lens_pixel *p = j->pixels + i;
-    const e3d_lens_face *face = j->faces + p->face;
-    int32_t left = (p->x - HALF) >> 8, top = (p->y - HALF) >> 8;
-    int32_t x_first = p->x >> 8, y_first = p->y >> 8;
-    int32_t x_way = x_first == left ? 1 : -1, y_way = y_first == top ? 1 : -1;
-    int count = 0, around = !is_inside(j, face, left, top) ? NEAR : is_uniform(j, face, left, top) ? 1
-                                                                                                   : INNER;
+    int32_t x_way = at->x == at->left ? 1 : -1, y_way = at->y == at->top ? 1 : -1;
+    int count = 0;
     for (int n = 0; n < around; n++) {
-        int32_t x = x_first + x_way * AROUND[n][0], y = y_first + y_way * AROUND[n][1], known = 0;
+        int32_t x = at->x + x_way * AROUND[n][0], y = at->y + y_way * AROUND[n][1], known = 0;
         candidate *c = list + count;
-        show(j, (int32_t)(face->start + (int64_t)y * face->width + x), c);
+        show(j, (int32_t)pixel_of(at, x, y), c);
         if (c->object < 0) {
             *nothing = *nothing < 0 ? c->source : *nothing;
             if (n)
@@ -284,16 +301,39 @@ static int is_doubtful(const sight *s, candidate *list, int count, const end *be
     return 0;
 }
 
+static inline void write_ids(const job *j, size_t i, int32_t source, int32_t object, int32_t instance, int32_t face)
+{
+    const e3d_lens_found *f = j->found;
+    if (f->source)
+        f->source[i] = source;
+    if (f->object_id)
+        f->object_id[i] = object;
+    if (f->instance_id)
+        f->instance_id[i] = instance;
+    if (f->face_id)
+        f->face_id[i] = face;
+}
+
+static inline void write_distance(const job *j, size_t i, double distance)
+{
+    const e3d_lens_found *f = j->found;
+    if (f->depth)
+        f->depth[i] = f->is_along_axis && distance > 0 ? (float)(distance * -j->rays[3 * i + 2]) : (float)distance;
+    if (f->range)
+        f->range[i] = (float)distance;
+    if (f->distance)
+        f->distance[i] = distance;
+}
+
 static void write(const job *j, size_t i, const candidate *c, double distance, const double weight[3], double sum)
 {
     const e3d_lens_found *f = j->found;
-    f->source[i] = c->source;
-    f->ids[3 * i] = c->object;
-    f->ids[3 * i + 1] = c->instance;
-    f->ids[3 * i + 2] = c->face;
-    f->distance[i] = distance;
+    write_ids(j, i, c->source, c->object, c->instance, c->face);
+    write_distance(j, i, distance);
+    if (!f->barycentric)
+        return;
     f->exact[i] = weight != 0;
-    for (int k = 0; k < 3 && f->barycentric; k++)
+    for (int k = 0; k < 3; k++)
         f->barycentric[3 * i + k] = weight ? (float)(weight[k] / sum) : 0;
 }
 
@@ -409,49 +449,41 @@ static sight sight_of(const job *j, size_t i)
         for (int r = 0; r < 3; r++)
             direction[r] *= stretch;
     }
-    double slope = e3d_dot3(ray, j->faces[j->pixels[i].face].axis);
+    double slope = -e3d_dot3(ray, j->faces[j->pixels[i].face].axes[2]);
     return (sight){.aim = e3d_aim_of(j->eye, direction), .stretch = stretch, .slope = slope};
 }
 
-/* Writes a pixel all around which one face shows, so that its ray meets it; returns 0 if only a search can tell. The distance
- * is that to the plane, whatever else is asked for. */
-static int write_one(const job *j, size_t i, const candidate *c)
+/* Writes a pixel all around which one face shows (R271). */
+static void write_one(const job *j, size_t i, int32_t source, recent *kept)
 {
-    const double *ray = j->rays + 3 * i, *m = j->world;
-    e3d_crossing at = {.sum = 1};
-    double along = 0;
-    if (c->object < 0) {
-        write_nothing(j, i, c->source);
-        return 1;
+    candidate c;
+    show(j, source, &c);
+    if (!j->needs_place) {
+        write_ids(j, i, source, c.object, c.instance, c.face);
+        return;
     }
-    if (c->slot < 0)
-        return 0;
-    for (int r = 0; r < 3; r++)
-        along += c->at->normal[r] * ((m[4 * r] * ray[0] + m[4 * r + 1] * ray[1]) + m[4 * r + 2] * ray[2]);
-    double distance = c->at->offset / along;
-    if (!(distance > 0 && distance < INFINITY))
-        return 0;
+    c.at = placed_of(j, &c, kept, i + 1, 0);
+    double distance = c.at->slot < 0 ? 0 : c.at->offset / e3d_dot3(c.at->normal, j->rays + 3 * i);
+    if (!(distance > 0 && distance < INFINITY)) {
+        sight s = sight_of(j, i);
+        write_pixel(j, i, &s, &c);
+        return;
+    }
+    e3d_crossing at = {.sum = 1};
     int is_crossed = 0;
     if (j->found->barycentric) {
         sight s = sight_of(j, i);
-        is_crossed = e3d_cross_triangle(&s.aim, c->at->corners, &at);
+        is_crossed = e3d_cross_triangle(&s.aim, c.at->corners, &at);
     }
-    write(j, i, c, distance, is_crossed ? at.weight : 0, at.sum);
-    return 1;
+    write(j, i, &c, distance, is_crossed ? at.weight : 0, at.sum);
 }
 
-/* Finds what a pixel's ray meets; returns whether the ray was cast. */
-static int find_pixel(const job *j, size_t i, recent *kept)
+/* Finds what the ray of a pixel meets beside which several faces show; returns whether the ray was cast. */
+static int search(const job *j, size_t i, const spot *at, int around, recent *kept)
 {
     candidate list[NEAR];
     int32_t nothing = -1;
-    if (j->pixels[i].face < 0) {
-        write_nothing(j, i, -1);
-        return 0;
-    }
-    int count = gather(j, i, list, kept, &nothing);
-    if (count == 1 && (nothing < 0 || list[0].object < 0) && write_one(j, i, list))
-        return 0;
+    int count = gather(j, i, at, around, list, kept, &nothing);
     sight s = sight_of(j, i);
     if (list[0].object >= 0 && list[0].slot < 0) { /* a line, a point, a level of detail */
         write_pixel(j, i, &s, list);
@@ -468,6 +500,28 @@ static int find_pixel(const job *j, size_t i, recent *kept)
     else
         write_pixel(j, i, &s, list);
     return is_cast;
+}
+
+/* Finds what a pixel's ray meets; returns whether the ray was cast. Four pixels are enough within an object, and sixteen are
+ * looked at where it ends. */
+static int find_pixel(const job *j, size_t i, recent *kept)
+{
+    if (j->pixels[i].face < 0) {
+        write_nothing(j, i, -1);
+        return 0;
+    }
+    spot at = spot_of(j, i);
+    if (!is_inside(j, &at))
+        return search(j, i, &at, NEAR, kept);
+    int64_t inner = pixel_of(&at, at.left, at.top);
+    int32_t source = (int32_t)pixel_of(&at, at.x, at.y);
+    if (j->shown->object_id[inner] < 0)
+        write_nothing(j, i, source);
+    else if (is_one(j->shown->face_id + inner, at.face->width) && is_one(j->shown->instance_id + inner, at.face->width))
+        write_one(j, i, source, kept);
+    else
+        return search(j, i, &at, INNER, kept);
+    return 0;
 }
 
 static void find_band(void *argument, int band)
@@ -520,6 +574,7 @@ int64_t e3d_lens_find(const e3d_lens_scene *scene, const e3d_lens_face *faces, c
     for (int k = 0; k < 3; k++)
         j.eye[k] = world_from_view[4 * k + 3];
     j.is_rigid = is_rigid(world_from_view);
+    j.needs_place = found->depth || found->range || found->distance || found->barycentric;
     e3d_pool_share(threads, bands, find_band, &j);
     for (int b = 0; b < bands; b++)
         sum += casts[b];

@@ -7,14 +7,17 @@
  * Equal distances go to the first in the order of drawing.
  */
 #include <math.h>
+#include <string.h>
 
 #include "base/fpenv.h"
 #include "scene/crossing.h"
 #include "scene/pose.h"
 #include "scene/tree.h"
 
-typedef double v4d __attribute__((vector_size(32)));
-typedef int64_t v4l __attribute__((vector_size(32)));
+/* Two lanes, as all processors have them: compilers take wider vectors apart, through memory. */
+typedef double v2d __attribute__((vector_size(16)));
+typedef int64_t v2l __attribute__((vector_size(16)));
+typedef float v2f __attribute__((vector_size(8)));
 
 static const double FAR = 1e290, PAD = 1e-10;
 
@@ -58,25 +61,37 @@ typedef struct entry {
     int level;
 } entry;
 
-/* Returns a bit for each lane whose box the ray meets within `most`; near: the distance at which it enters. */
-static int enter(const ray *r, const e3d_block *b, double pad, double most, v4d *near)
+static inline v2d half_of(const e3d_v4 *four, int half)
 {
-    v4d in = {0}, out = in + most;
+    v2f two;
+    memcpy(&two, (const float *)four + 2 * half, sizeof two);
+    return __builtin_convertvector(two, v2d);
+}
+
+/* Returns bits for two lanes of a block, set if the ray meets their box within `most`; near: the distance at which it enters. */
+static inline int enter_half(const ray *r, const e3d_block *b, int half, double pad, double most, double near[2])
+{
+    v2d in = {0}, out = in + most;
     for (int k = 0; k < 3; k++) {
         int up = r->inverse[k] >= 0;
-        v4d low = __builtin_convertvector(b->low[k], v4d) - pad;
-        v4d high = __builtin_convertvector(b->high[k], v4d) + pad;
-        v4d first = ((up ? low : high) - r->origin[k]) * r->inverse[k];
-        v4d last = ((up ? high : low) - r->origin[k]) * r->inverse[k];
-        v4l later = first > in, sooner = last < out;
-        in = (v4d)(((v4l)first & later) | ((v4l)in & ~later));
-        out = (v4d)(((v4l)last & sooner) | ((v4l)out & ~sooner));
+        v2d low = half_of(&b->low[k], half) - pad, high = half_of(&b->high[k], half) + pad;
+        v2d first = ((up ? low : high) - r->origin[k]) * r->inverse[k];
+        v2d last = ((up ? high : low) - r->origin[k]) * r->inverse[k];
+        v2l later = first > in, sooner = last < out;
+        in = (v2d)(((v2l)first & later) | ((v2l)in & ~later));
+        out = (v2d)(((v2l)last & sooner) | ((v2l)out & ~sooner));
     }
-    v4l meets = in <= out * (1 + 1e-14);
-    *near = in;
+    v2l meets = in <= out * (1 + 1e-14);
+    memcpy(near, &in, sizeof in);
+    return (meets[0] & 1) | (meets[1] & 2);
+}
+
+/* The same for all four. */
+static int enter(const ray *r, const e3d_block *b, double pad, double most, double near[4])
+{
+    int met = enter_half(r, b, 0, pad, most, near) | enter_half(r, b, 1, pad, most, near + 2) << 2;
     /* A ray that is not finite meets everything except empty boxes. */
-    return ((meets[0] & 1) | (meets[1] & 2) | (meets[2] & 4) | (meets[3] & 8)) &
-           lanes_of(b->low[0] <= b->high[0]);
+    return met & lanes_of(b->low[0] <= b->high[0]);
 }
 
 static double pad_of(const e3d_tree *t, const ray *r)
@@ -102,10 +117,10 @@ static void walk(const e3d_tree *t, const ray *r, search *s, meet *meet_item)
     while (top) {
         entry at = stack[--top];
         double most = s->hit->distance < FAR ? s->hit->distance : FAR;
-        v4d near;
+        double near[4];
         if (at.near > most)
             continue;
-        int lanes = enter(r, e3d_tree_level(t, at.level) + at.block, pad, most, &near), first = top;
+        int lanes = enter(r, e3d_tree_level(t, at.level) + at.block, pad, most, near), first = top;
         for (int lane = 0; lane < 4; lane++) {
             if (!(lanes >> lane & 1))
                 continue;

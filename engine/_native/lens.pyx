@@ -5,7 +5,7 @@ In:  where the pixels of a lens look in the pinhole pictures around it; these pi
 Out: the lens's picture, and what its rays meet. What the pictures are is engine/rendering/lens's affair.
 """
 
-from e3d cimport e3d_thread_count
+from e3d cimport E3D_OK, e3d_backend, e3d_status, e3d_status_text, e3d_thread_count
 from e3d_lens cimport *
 from .scene_graph cimport NativeGraph, NativeShapes
 from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t
@@ -31,8 +31,9 @@ cdef class NativeLens:
 
     Parameters
     ----------
-    faces : list of (start, width, height, (x, y, z))
-        The first pixel of each pinhole picture in the arrays of all, its size and its axis.
+    faces : list of (start, width, height, axes)
+        The first pixel of each pinhole picture in the arrays of all, its size, and right, up and back
+        in camera space.
     pixels : (H, W, PIXEL_BYTES) uint8
         Rows of e3d_lens_pixel; whoever makes them makes sure that each looks into its face.
     rays : (H, W, 3) float64
@@ -49,7 +50,9 @@ cdef class NativeLens:
     def __cinit__(
         self, list faces, const uint8_t[:, :, ::1] pixels not None, const double[:, :, ::1] rays not None
     ):
-        cdef int k
+        cdef int k, row, column
+        if len(faces) > E3D_LENS_FACES:
+            raise InvalidArgumentError(f"a lens has at most {E3D_LENS_FACES} faces")
         if pixels.shape[2] != sizeof(e3d_lens_pixel) or rays.shape[2] != 3:
             raise InvalidArgumentError("pixels must be (H, W, PIXEL_BYTES), rays (H, W, 3)")
         if pixels.shape[0] != rays.shape[0] or pixels.shape[1] != rays.shape[1]:
@@ -61,9 +64,11 @@ cdef class NativeLens:
         if self.faces == NULL:
             raise OutOfMemoryError("no memory for a lens")
         for k in range(self.count):
-            start, width, height, axis = faces[k]
+            start, width, height, axes = faces[k]
             self.faces[k].start, self.faces[k].width, self.faces[k].height = start, width, height
-            self.faces[k].axis[0], self.faces[k].axis[1], self.faces[k].axis[2] = axis
+            for row in range(3):
+                for column in range(3):
+                    self.faces[k].axes[row][column] = axes[row][column]
             self.total = max(self.total, start + width * height)
         self.pixels, self.rays = pixels, rays
         self.height, self.width = <int32_t>pixels.shape[0], <int32_t>pixels.shape[1]
@@ -78,6 +83,7 @@ cdef class NativeLens:
         const uint8_t[:, :, ::1] behind,
         const uint8_t[::1] codes not None,
         tuple outside,
+        int backend,
         int threads,
         uint8_t[:, :, ::1] out not None,
     ) -> None:
@@ -87,6 +93,7 @@ cdef class NativeLens:
             The opaque picture that shows where the faces are transparent.
         """
         cdef e3d_lens_colors all
+        cdef e3d_status status
         cdef int k
         self.check_picture(out.shape[0], out.shape[1], out.shape[2], 4)
         if behind is not None:
@@ -104,7 +111,9 @@ cdef class NativeLens:
             all.outside[k] = outside[k]
         all.width, all.height, all.to = self.width, self.height, &out[0, 0, 0]
         with nogil:
-            e3d_lens_draw(&all, threads if threads > 0 else e3d_thread_count())
+            status = e3d_lens_draw(&all, <e3d_backend>backend, threads if threads > 0 else e3d_thread_count())
+        if status != E3D_OK:
+            raise InvalidArgumentError(e3d_status_text(status).decode())
 
     def find(
         self,
@@ -115,7 +124,8 @@ cdef class NativeLens:
         const double[:, ::1] pose not None,
         tuple range,
         tuple shown,
-        tuple found,
+        dict found,
+        bint is_along_axis,
         int threads,
     ) -> int:
         """Find what the rays meet first, as of the graph's last update; return how many were cast.
@@ -125,18 +135,15 @@ cdef class NativeLens:
         range : (near, far)
         shown : (object_id, instance_id, face_id, depth)
             Of all faces, (total,).
-        found : (source, ids, distance, barycentric, exact)
-            Arrays of (H, W), ids and barycentric (H, W, 3); barycentric may be None.
+        found : dict of arrays of (H, W), barycentric (H, W, 3)
+            By the names of e3d_lens_found, those that are wanted; "exact" with "barycentric".
+        is_along_axis : bool
+            Whether depth is measured along the lens's axis.
         """
         cdef const int32_t[::1] ids = nodes[0], slots = nodes[1]
         cdef const uint8_t[::1] solid = nodes[2]
         cdef const int32_t[::1] object_id = shown[0], instance_id = shown[1], face_id = shown[2]
         cdef const float[::1] depth = shown[3]
-        cdef int32_t[:, ::1] source = found[0]
-        cdef int32_t[:, :, ::1] found_ids = found[1]
-        cdef double[:, ::1] distance = found[2]
-        cdef float[:, :, ::1] barycentric = found[3]
-        cdef uint8_t[:, ::1] exact = found[4]
         cdef double near = range[0], far = range[1]
         cdef e3d_lens_scene scene
         cdef e3d_lens_shown seen
@@ -150,12 +157,6 @@ cdef class NativeLens:
             raise InvalidArgumentError("a pose is 4x4")
         if min(object_id.shape[0], instance_id.shape[0], face_id.shape[0], depth.shape[0]) < self.total:
             raise InvalidArgumentError("what is shown must be (total,)")
-        self.check_picture(source.shape[0], source.shape[1], 1, 1)
-        self.check_picture(distance.shape[0], distance.shape[1], 1, 1)
-        self.check_picture(exact.shape[0], exact.shape[1], 1, 1)
-        self.check_picture(found_ids.shape[0], found_ids.shape[1], found_ids.shape[2], 3)
-        if barycentric is not None:
-            self.check_picture(barycentric.shape[0], barycentric.shape[1], barycentric.shape[2], 3)
         graph.need_tree()
         scene.graph, scene.tree = &graph.graph, graph.tree
         scene.shapes, scene.shape_count = shapes.shapes, shapes.count
@@ -167,14 +168,80 @@ cdef class NativeLens:
         seen.instance_id = &instance_id[0] if self.total else &none
         seen.face_id = &face_id[0] if self.total else &none
         seen.depth = &depth[0] if self.total else &zero
-        out.source, out.ids, out.distance = &source[0, 0], &found_ids[0, 0, 0], &distance[0, 0]
-        out.barycentric = &barycentric[0, 0, 0] if barycentric is not None else NULL
-        out.exact = &exact[0, 0]
+        out.source, out.object_id = self.integers(found, "source"), self.integers(found, "object_id")
+        out.instance_id, out.face_id = self.integers(found, "instance_id"), self.integers(found, "face_id")
+        out.depth, out.range = self.floats(found, "depth", 1), self.floats(found, "range", 1)
+        out.barycentric = self.floats(found, "barycentric", 3)
+        out.is_along_axis = is_along_axis
+        out.distance, out.exact = self.doubles(found, "distance"), self.bytes(found, "exact")
+        if (out.barycentric == NULL) != (out.exact == NULL):
+            raise InvalidArgumentError("barycentric and exact go together")
         return e3d_lens_find(
             &scene, self.faces, <const e3d_lens_pixel *>&self.pixels[0, 0, 0], &self.rays[0, 0, 0],
             self.width, self.height, &pose[0, 0], near, far, &seen, &out,
             threads if threads > 0 else e3d_thread_count(),
         )
+
+    def take(
+        self,
+        const int32_t[:, ::1] source not None,
+        const uint8_t[:, ::1] values not None,
+        bint is_turned,
+        uint8_t none,
+        int threads,
+        uint8_t[:, :, ::1] out not None,
+    ) -> None:
+        """Take the values of the sources of all pixels, (total, bytes), into a picture, (H, W, bytes).
+
+        is_turned : bool
+            The first three numbers, float32, are a vector in the axes of its face.
+        none : int
+            Each byte where there is no source.
+        """
+        cdef e3d_lens_values all
+        self.check_picture(source.shape[0], source.shape[1], 1, 1)
+        self.check_picture(out.shape[0], out.shape[1], out.shape[2], values.shape[1])
+        if values.shape[0] < self.total or values.shape[1] < (12 if is_turned else 1):
+            raise InvalidArgumentError("values must be (total, bytes)")
+        all.faces, all.face_count = self.faces, self.count
+        all.pixels, all.source = <const e3d_lens_pixel *>&self.pixels[0, 0, 0], &source[0, 0]
+        all.from_, all.bytes = &values[0, 0] if self.total else NULL, <int32_t>values.shape[1]
+        all.is_turned, all.none = is_turned, none
+        all.width, all.height, all.to = self.width, self.height, &out[0, 0, 0]
+        with nogil:
+            e3d_lens_take(&all, threads if threads > 0 else e3d_thread_count())
+
+    cdef int32_t *integers(self, dict found, str name) except? NULL:
+        cdef int32_t[:, ::1] array
+        if found.get(name) is None:
+            return NULL
+        array = found[name]
+        self.check_picture(array.shape[0], array.shape[1], 1, 1)
+        return &array[0, 0]
+
+    cdef float *floats(self, dict found, str name, int channels) except? NULL:
+        cdef float[:, :, ::1] array
+        if found.get(name) is None:
+            return NULL
+        array = found[name].reshape(*found[name].shape[:2], -1)
+        self.check_picture(array.shape[0], array.shape[1], array.shape[2], channels)
+        return &array[0, 0, 0]
+
+    cdef double *doubles(self, dict found, str name) except? NULL:
+        cdef double[:, ::1] array
+        if found.get(name) is None:
+            return NULL
+        array = found[name]
+        self.check_picture(array.shape[0], array.shape[1], 1, 1)
+        return &array[0, 0]
+
+    cdef uint8_t *bytes(self, dict found, str name) except? NULL:
+        cdef uint8_t[:, ::1] array
+        if found.get(name) is None:
+            return NULL
+        array = found[name]
+        self.check_picture(array.shape[0], array.shape[1], 1, 1)
+        return &array[0, 0]
 
     cdef int check_picture(
         self, Py_ssize_t height, Py_ssize_t width, Py_ssize_t channels, Py_ssize_t wanted

@@ -63,7 +63,7 @@ def load_calibration(path: File) -> tuple[Camera, tuple[int, int] | None]:
                 said: Any = _first_camera(data.decode("utf-8", "replace"))
             else:
                 said = parsed(data, source.path)
-            return camera_of_record(said, "the camera"), _size(said)
+            return camera_of_record(said, "the camera"), stated_size(said)
         except InvalidArgumentError as error:
             raise FileFormatError(str(error), source.path) from None
 
@@ -90,7 +90,7 @@ def camera_of_record(said: Any, what: str) -> Camera:
     raise InvalidArgumentError(f"{what} names no camera model: it has none of {', '.join(_FORMS)}")
 
 
-def _size(said: Mapping[str, Any]) -> tuple[int, int] | None:
+def stated_size(said: Mapping[str, Any]) -> tuple[int, int] | None:
     """Return the size that a record states; None for none, and for what is no size."""
     sides = [said.get(name, said.get(name[0])) for name in ("width", "height")]  # w, h: nerfstudio
     if not all(real(side) >= 1 and real(side).is_integer() for side in sides):

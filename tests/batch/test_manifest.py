@@ -37,6 +37,23 @@ def test_matrices_combine_values(manifest):
     assert names[8:] == ["s004-8", "s005-9", "model_4x5_0", "model_6x7_0"]
 
 
+def test_a_lens_says_how_large_its_pictures_are(place):
+    record = {"model": "PINHOLE", "params": [40, 40, 24, 16], "width": 52, "height": 36}
+    posed, unsized = {"pose": POSE, "lens": record}, {**record, "width": None}
+    entries = [
+        {**MODEL, "name": "a", "camera": posed},
+        {**MODEL, "name": "b", "camera": posed, "size": [8, 9]},
+        {**MODEL, "name": "c", "camera": {**posed, "lens": unsized}},
+    ]
+    for defaults, sizes in (
+        ({}, [(52, 36), (8, 9), (320, 240)]),
+        ({"size": [4, 5]}, [(4, 5), (8, 9), (4, 5)]),
+    ):
+        text = json.dumps({"version": 1, "defaults": defaults, "tasks": entries})
+        (place / "lens.json").write_text(text)
+        assert [task.size for task in read_manifest(place / "lens.json").tasks] == sizes
+
+
 def test_writers_are_made_as_they_say(manifest):
     path = manifest(SCRIPT, dataset={"writer": "bop", "split": "val", "depth_scale": 2})
     assert read_manifest(path).writer.said()["split"] == "val"

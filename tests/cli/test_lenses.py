@@ -56,6 +56,13 @@ def test_what_is_no_lens_is_named(model, tmp_path, capsys, text, status, said):
     assert said in capsys.readouterr().err
 
 
+def test_a_lens_and_parallel_rays_do_not_go_together(model, tmp_path, capsys):
+    (tmp_path / "lens.json").write_text(json.dumps(LENS))
+    options = ["--camera-lens", str(tmp_path / "lens.json"), "-o", str(tmp_path / "a.png")]
+    assert main(["render", str(model), *SMALL, *options, "--camera-orthographic"]) == 2
+    assert "--camera-lens and --camera-orthographic" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     "record",
     [

@@ -1,10 +1,14 @@
 """Section 31 of docs/exactness: the filter of colours, by an oracle written from its rules."""
 
+import itertools
+
 import numpy as np
 import pytest
 
 from engine3d._native import lens as native
+from engine3d._native import rasterizer
 
+BACKENDS = [k for k in rasterizer.BACKENDS.values() if rasterizer.backend_available(k)]
 SIZE = 24, 16  # of the lens's picture
 FACES = ((0, 40, 30), (1280, 25, 50))  # start, width, height
 
@@ -79,16 +83,16 @@ def test_colours_are_filtered_by_the_rules(seed, is_srgb):
     pixels, colors = random_case(seed)
     room, light, code = codes(is_srgb)
     width, height = SIZE
-    rows = [(*face, (0.0, 0.0, -1.0)) for face in FACES]
+    rows = [(*face, np.eye(3).tolist()) for face in FACES]
     raw = pixels.view(np.uint8).reshape(height, width, native.PIXEL_BYTES)
     lens = native.NativeLens(rows, raw, np.zeros((height, width, 3)))
     behind = None
     if seed % 2:
         behind = np.random.default_rng(seed).integers(0, 256, (height, width, 4), dtype=np.uint8)
-    for threads in (1, 3):
+    for backend, threads in itertools.product(BACKENDS, (1, 3)):
         drawn = np.empty((height, width, 4), np.uint8)
         scratch = np.empty((len(colors), 4), np.uint16)
-        lens.draw(colors, scratch, behind, room, (1, 2, 3, 4), threads, drawn)
+        lens.draw(colors, scratch, behind, room, (1, 2, 3, 4), backend, threads, drawn)
         for row in range(height):
             for column in range(width):
                 pixel = pixels[row, column]

@@ -1,6 +1,7 @@
 """Pictures through lenses: against rays through the pixels, against pinholes, on all backends."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -289,6 +290,18 @@ def test_what_is_not_drawn_is_named():
     with pytest.warns(e3d.Engine3DWarning, match="fog"):
         e3d.render(scene, (LENSES["equirectangular"], POSE), size=SIZE, look="plain")
     scene.fog = None
+    glass = e3d.uv_sphere(0.3)
+    glass.materials[:] = [e3d.Material(metallic=0, roughness=0, transmission=1.0, thickness=0.3)]
+    bent = scene.add(glass, translation=(0, 0, -1.5))
+    with e3d.Renderer(SIZE, look="plain") as renderer:
+        with pytest.warns(e3d.Engine3DWarning, match="glass"):
+            renderer.render(scene, (LENSES["fisheye"], np.eye(4)))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            renderer.render(scene, (LENSES["fisheye"], np.eye(4)))  # once
+            renderer.render(scene, (LENSES["barrel"], np.eye(4)))  # one face has no borders
+            renderer.render(scene, (LENSES["fisheye"], np.eye(4)), refraction=False)
+    scene.remove(bent)
     with pytest.warns(e3d.Engine3DWarning, match="ambient occlusion"):
         e3d.render(
             scene, (LENSES["fisheye"], POSE), size=SIZE, look="plain", ambient_occlusion=True
@@ -339,8 +352,6 @@ def test_lenses_without_measure_draw_or_refuse(number):
 
 
 def _quietly(draw):
-    import warnings
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return draw()

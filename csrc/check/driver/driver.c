@@ -14,7 +14,9 @@
 #include "check/driver/scenes/bloom_scene.h"
 #include "check/driver/scenes/canvas_scene.h"
 #include "check/driver/compare.h"
+#include "check/driver/scenes/flow_scene.h"
 #include "check/driver/scenes/graph_scene.h"
+#include "check/driver/scenes/lens_scene.h"
 #include "check/driver/scenes/mujoco_scene.h"
 #include "check/driver/scenes/occlusion_scene.h"
 #include "check/driver/outputs.h"
@@ -58,6 +60,9 @@ static const struct {
     {"outputs", compare_outputs},
     {"bloom", compare_bloom},
     {"behind", compare_behind},
+    {"lens", compare_lens_colors},
+    {"lens-rays", compare_lens_rays},
+    {"flow", compare_flow},
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 

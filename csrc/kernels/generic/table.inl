@@ -42,6 +42,7 @@
 #include "kernels/generic/alpha.inl"
 #include "kernels/generic/stream.inl"
 #include "kernels/generic/bloom.inl"
+#include "kernels/generic/lens.inl"
 #include "kernels/generic/ui.inl"
 
 #define E3D_KERNEL(type, name, parameters) .name = kernel_##name,

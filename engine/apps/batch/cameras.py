@@ -24,7 +24,7 @@ from ...base import linalg
 from ...base.numbers import shown
 from ...base.validation import finite, matrix4, positive, vector3
 from ...errors import InvalidArgumentError
-from ...io.camera_files import camera_of_record
+from ...io.camera_files import camera_of_record, stated_size
 from ...model.scene.cameras import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
 from ...model.scene.lenses.lens_camera import LensCamera
 from ...model.scene.nodes import check_pose
@@ -129,6 +129,11 @@ _MEMBERS = {
     "intrinsics": _intrinsics,
     "lens": _lens_record,
 }
+
+
+def calibrated_size(said: Any) -> tuple[int, int] | None:
+    """Return the size that the lens of a checked camera states; None for none."""
+    return stated_size(said["lens"]) if isinstance(said, Mapping) and "lens" in said else None
 
 
 def camera_of(

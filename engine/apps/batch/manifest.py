@@ -18,6 +18,7 @@ from ...io.reading.json_values import JsonValue, parsed_json
 from ...io.reading.sources import read_source
 from ..datasets.kinds import KINDS, writer_class
 from ..datasets.writer import DatasetWriter
+from .cameras import calibrated_size
 from .matrix import Value, combinations, name_from, value_of
 from .members import MemberError
 from .task import Task, check_look, checked, task_of
@@ -188,6 +189,9 @@ def _task(entry: JsonValue, values: dict[str, Value], index: int, folder: str) -
     pattern = given.pop("name", "{model}" if "model" in given else "{script}")
     if not {"model", "script"} & given.keys():
         raise entry.error("a task needs a model or a script")
+    size = calibrated_size(given.get("camera"))
+    if size is not None and "size" not in given:
+        given["size"] = _told(entry, lambda: checked("size", size))
     place = entry.get("name") or entry
     name = _told(place, lambda: checked("name", name_from(pattern, texts)))
     task = task_of({**given, "name": name, "index": index, "folder": folder})

@@ -67,10 +67,16 @@ def border_of(options: RenderOptions) -> float:
     return _BORDER if options.mode == "lit" and options.ambient_occlusion else 0.0
 
 
-def warn_of_scene(scene: AnyScene, options: RenderOptions, faces: int) -> None:
-    """Name what a picture of several faces does not show as a pinhole does."""
-    if faces == 1:
-        return
+def warn_of_scene(scene: AnyScene, options: RenderOptions, refracts: bool) -> None:
+    """Name what a picture of several faces does not show as a pinhole does.
+
+    Parameters
+    ----------
+    scene : Scene or StagedScene
+    options : RenderOptions
+    refracts : bool
+        Whether the faces show what is behind glass bent or blurred.
+    """
     told: list[str] = []
     if scene.fog is not None:
         told.append("fog is as thick as along the axes of a cube around the camera")
@@ -78,5 +84,7 @@ def warn_of_scene(scene: AnyScene, options: RenderOptions, faces: int) -> None:
         told.append("edges are drawn as wide as at the middle of each side of a cube")
     if options.ambient_occlusion and options.mode == "lit":
         told.append("ambient occlusion may show where sides of a cube meet")
+    if refracts:
+        told.append("glass that lies across an edge of the cube may show it")
     if told:
         warn("through a lens that sees more than a pinhole, " + ", and ".join(told))

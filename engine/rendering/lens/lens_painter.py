@@ -26,11 +26,10 @@ from .._painter import How, Painter
 from .._turn import RendererTurn
 from .._view import View
 from ..options import RenderOptions
-from ..passes.protocol import Shot
+from ..passes.protocol import Picture, Shot
 from .lens_options import (
     IDENTITIES,
     OF_VALUES,
-    TURNED,
     border_of,
     check_outputs,
     faces_options,
@@ -40,7 +39,7 @@ from .lens_options import (
 from .lens_plan import Face, LensPlan, plan_lens
 from .lens_scene import lens_scene
 from .lens_stats import LensStats
-from .lens_values import Found, blank, coloured_values, value_of
+from .lens_values import Found, blank, coloured_values, empty, value_of
 
 Arrays = dict[str, NDArray[Any]]
 _MOST_PLANS = 4
@@ -103,21 +102,21 @@ class LensPainter:
         check_outputs(outputs)
         options = through.options
         plan = self._plan(through)
-        self._warn(through, plan)
         names = faces_outputs(options, tuple(outputs))
         arrays = self._pool.take(_flat(shapes_of(names, 1, 1), plan.total))
-        stats = [self._draw_face(through, plan, k, arrays) for k in range(len(plan.faces))]
+        pictures = [self._draw_face(through, plan, k, arrays) for k in range(len(plan.faces))]
+        self._warn(through, pictures)
         rays = 0
         found = None
         if "object_id" in arrays:
-            found, rays = self._find(through, plan, arrays)
+            found, rays = self._find(through, plan, arrays, outputs)
         for name, array in outputs.items():
             if name != "color":
                 assert found is not None
-                value_of(name, found, plan, through.view, arrays, array)
+                value_of(name, found, plan, through.view, arrays, self._how.threads, array)
         if "color" in outputs:
             self._draw_color(through, plan, arrays, found, outputs["color"])
-        return LensStats(stats, rays)
+        return LensStats([picture.drawn for picture in pictures], rays)
 
     def _plan(self, through: Through) -> LensPlan:
         camera, border = through.view.camera, border_of(through.options)
@@ -129,14 +128,17 @@ class LensPainter:
             kept = self._plans[key] = plan_lens(camera, through.size, border)
         return kept
 
-    def _warn(self, through: Through, plan: LensPlan) -> None:
+    def _warn(self, through: Through, faces: list[Picture]) -> None:
+        """Warn once of each scene and options, if the lens has several faces."""
         scene, options = through.scene, through.options
-        if self._told.differs(id(scene), scene.fog, options, len(plan.faces)):
-            warn_of_scene(scene, options, len(plan.faces))
+        refracts = any("behind" in face.arrays for face in faces)
+        if self._told.differs(id(scene), scene.fog, options, len(faces), refracts):
+            if len(faces) > 1:
+                warn_of_scene(scene, options, refracts)
             self._told.done()
 
-    def _draw_face(self, through: Through, plan: LensPlan, k: int, arrays: Arrays) -> Any:
-        """Draw a pinhole picture into its part of the arrays."""
+    def _draw_face(self, through: Through, plan: LensPlan, k: int, arrays: Arrays) -> Picture:
+        """Draw a pinhole picture into its part of the arrays, and return it."""
         face = plan.faces[k]
         if k == len(self._painters):
             self._painters.append(Painter(self._how, self._turn))
@@ -156,10 +158,7 @@ class LensPainter:
         for one in passes.passes:
             one.draw(picture)
             self._turn.check()
-        for name in TURNED:
-            if name in arrays:
-                _turn(arrays[name][face.pixels], face)
-        return picture.drawn
+        return picture
 
     def _view(self, lens: LensView, face: Face, k: int) -> View:
         """Return the view of a face; the last one if nothing has changed."""
@@ -174,11 +173,13 @@ class LensPainter:
             self._views[k] = made_of, view
         return view
 
-    def _find(self, through: Through, plan: LensPlan, arrays: Arrays) -> tuple[Found, int]:
+    def _find(
+        self, through: Through, plan: LensPlan, arrays: Arrays, outputs: Arrays
+    ) -> tuple[Found, int]:
         """Find what the rays of the pixels meet."""
         options, camera = through.options, through.view.camera
         nodes = lens_scene(through.scene, options.hidden_surfaces == "zbuffer")
-        found = Found.empty(plan.seen.shape, "barycentric" in arrays)
+        found = empty(outputs, options.mode, through.size)
         rays = plan.native.find(
             nodes.graph,
             nodes.shapes,
@@ -187,7 +188,8 @@ class LensPainter:
             through.view.pose,
             (camera.znear, camera.zfar),
             (*(arrays[name] for name in IDENTITIES), arrays["depth"]),
-            tuple(found),
+            found,
+            camera.depth_along == "axis",
             self._how.threads,
         )
         return found, rays
@@ -205,12 +207,15 @@ class LensPainter:
         outside = (0, 0, 0, 0 if scene.background is None else 255)
         light = self._pool.take({"light": ((plan.total, 4), np.dtype(np.uint16))})["light"]
         codes, threads = self._light_codes(), self._how.threads
-        plan.native.draw(arrays["color"], light, behind, codes, outside, threads, color)
+        backend = self._how.backend
+        plan.native.draw(arrays["color"], light, behind, codes, outside, backend, threads, color)
         if options.mode in OF_VALUES and options.wireframe is None:
             assert found is not None
             name = OF_VALUES[options.mode]
-            values = blank(name, through.size)
-            value_of(name, found, plan, through.view, arrays, values)
+            values = found.get(name)
+            if values is None:
+                values = blank(name, through.size)
+                value_of(name, found, plan, through.view, arrays, threads, values)
             range_ = through.view.depth_range(scene.bounds)
             coloured_values(options.mode, values, found, range_, color)
         if "radiance" in arrays and options.bloom > 0 and options.mode in ("lit", "unlit"):
@@ -285,11 +290,3 @@ def _is_behind(scene: AnyScene) -> bool:
 def _flat(shapes: Shapes, total: int) -> Shapes:
     """Return the shapes of arrays over the pixels of all faces."""
     return {name: ((total, *shape[2:]), dtype) for name, (shape, dtype) in shapes.items()}
-
-
-def _turn(vectors: NDArray[np.float32], face: Face) -> None:
-    """Turn vectors from a face's axes to those of the camera."""
-    given = vectors[:, :3].copy()
-    for row, axis in enumerate(face.axes):
-        number = int(np.flatnonzero(axis)[0])
-        vectors[:, number] = given[:, row] * np.float32(axis[number])

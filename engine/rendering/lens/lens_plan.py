@@ -156,7 +156,7 @@ def plan_lens(camera: LensCamera, size: tuple[int, int], border: float) -> LensP
         faces.append(Face(start, (wide, high), axes, intrinsics))
     if not faces:  # nothing is seen; statistics are still those of a picture
         faces.append(Face(0, (1, 1), CUBE[0], (1.0, 1.0, 0.5, 0.5)))
-    rows = [(face.start, *face.size, tuple((-face.axes[2]).tolist())) for face in faces]
+    rows = [(face.start, *face.size, face.axes.tolist()) for face in faces]
     raw = pixels.view(np.uint8).reshape(height, width, PIXEL_BYTES)
     native, tall = NativeLens(rows, raw, rays), max(round(height * scale), 1)
     return LensPlan(faces, native, rays, seen, scale, pixels, tall)

@@ -6,49 +6,52 @@ Nothing is filtered (docs/exactness, R208).
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._lens_view import LensView
 from .._output_pool import shapes_of
-from .lens_options import IDENTITIES
+from .lens_options import IDENTITIES, OF_VALUES, TURNED
 from .lens_plan import LensPlan
 
+#: Outputs that rays find, and those that follow from the distance along them.
+_BY_RAYS = (*IDENTITIES, "depth", "range")
+_PLACES = ("position", "world_position")
 
-class Found(NamedTuple):
-    """What the rays of pixels meet.
 
-    Attributes
+#: Arrays by their names: what the rays of pixels meet, as in e3d_lens.h.
+Found: TypeAlias = dict[str, NDArray[Any]]
+
+
+def empty(outputs: dict[str, NDArray[Any]], mode: str, size: tuple[int, int]) -> Found:
+    """Return what is to be found for a picture, with arbitrary contents.
+
+    Parameters
     ----------
-    source : (H, W) int32
-        The pixel of the faces whose values it takes; -1 for none.
-    ids : (H, W, 3) int32
-        Object, instance, face; -1 for none.
-    distance : (H, W) float64
-        Along the ray, in the scene's unit; 0 for none.
-    barycentric : (H, W, 3) float32 or None
-    exact : (H, W) uint8
-        1 where ``barycentric`` has values, if there is one.
+    outputs : dict of arrays
+        The picture's; what rays find is written into them.
+    mode : str
+        What its colours show.
+    size : (int, int)
     """
-
-    source: NDArray[np.int32]
-    ids: NDArray[np.int32]
-    distance: NDArray[np.float64]
-    barycentric: NDArray[np.float32] | None
-    exact: NDArray[np.uint8]
-
-    @classmethod
-    def empty(cls, shape: tuple[int, ...], weights: bool) -> Found:
-        """Return arrays for a picture of (H, W) pixels."""
-        return cls(
-            np.empty(shape, np.int32),
-            np.empty((*shape, 3), np.int32),
-            np.empty(shape, np.float64),
-            np.empty((*shape, 3), np.float32) if weights else None,
-            np.empty(shape, np.uint8),
-        )
+    shape = size[1], size[0]
+    coloured = {OF_VALUES[mode]} if "color" in outputs and mode in OF_VALUES else set()
+    wanted = {*outputs, *coloured}
+    found: Found = {}
+    for name in wanted.intersection(_BY_RAYS):
+        found[name] = outputs[name] if name in outputs else blank(name, size)
+    if wanted.difference(_BY_RAYS, _PLACES, ("color",)):
+        found["source"] = np.empty(shape, np.int32)
+    if wanted.intersection(_PLACES):
+        found["distance"] = np.empty(shape, np.float64)
+    if (coloured or "distance" in found) and "object_id" not in found:
+        found["object_id"] = np.empty(shape, np.int32)
+    if "barycentric" in outputs:
+        found["barycentric"] = np.empty((*shape, 3), np.float32)
+        found["exact"] = np.empty(shape, np.uint8)
+    return found
 
 
 def blank(name: str, size: tuple[int, int]) -> NDArray[Any]:
@@ -62,30 +65,29 @@ def value_of(
     found: Found,
     plan: LensPlan,
     view: LensView,
-    arrays: dict[str, NDArray[Any]],
+    faces: dict[str, NDArray[Any]],
+    threads: int,
     out: NDArray[Any],
 ) -> None:
-    """Write an output of a lens's picture."""
-    if name in IDENTITIES:
-        out[...] = found.ids[..., IDENTITIES.index(name)]
-    elif name == "depth":
-        out[...] = found.distance
-        if view.camera.depth_along == "axis":
-            out[...] = np.where(found.distance > 0.0, found.distance * -plan.rays[..., 2], 0.0)
-    elif name == "range":
-        out[...] = found.distance
-    elif name in ("position", "world_position"):
+    """Write an output of a lens's picture, given what the faces show."""
+    if name in _BY_RAYS:
+        return  # it is found in place
+    if name in _PLACES:
         out[...] = _positions(name, found, plan, view)
     else:
-        np.take(arrays[name], np.maximum(found.source, 0), axis=0, out=out, mode="clip")
-        out[found.source < 0] = -1 if name == "material_id" else 0
-        if name == "barycentric" and found.barycentric is not None:
-            np.copyto(out, found.barycentric, where=found.exact[..., np.newaxis] != 0)
+        values = faces[name]
+        to = out.view(np.uint8).reshape(*out.shape[:2], -1)
+        raw = values.view(np.uint8).reshape(len(values), -1)
+        none = 255 if name == "material_id" else 0  # -1
+        plan.native.take(found["source"], raw, name in TURNED, none, threads, to)
+        if name == "barycentric":
+            exact = found["exact"][..., np.newaxis] != 0
+            np.copyto(out, found["barycentric"], where=exact)
 
 
 def _positions(name: str, found: Found, plan: LensPlan, view: LensView) -> NDArray[np.float64]:
-    met = (found.ids[..., :1] >= 0) & np.isfinite(plan.rays)
-    places = np.where(met, plan.rays, 0.0) * found.distance[..., np.newaxis]
+    met = (found["object_id"] >= 0)[..., np.newaxis] & np.isfinite(plan.rays)
+    places = np.where(met, plan.rays, 0.0) * found["distance"][..., np.newaxis]
     if name == "world_position":
         pose, seen = view.pose, places
         places = np.empty(seen.shape)
@@ -103,7 +105,7 @@ def coloured_values(
     color: NDArray[np.uint8],
 ) -> None:
     """Colour depths or normals by R209, where the lens sees a surface."""
-    met = found.ids[..., 0] >= 0
+    met = found["object_id"] >= 0
     if mode == "depth":
         near, far = (np.float32(end) for end in depth_range)
         share = (values[met] - near) * (np.float32(1.0) / (far - near))

@@ -99,6 +99,8 @@ def lens_of(args: argparse.Namespace):
     path = args.camera_lens
     if path is None:
         return None, None
+    if args.camera_orthographic:
+        raise UsageError("--camera-lens and --camera-orthographic do not go together")
     from ....io.camera_files import load_calibration
     from ....model.scene.cameras import IntrinsicsCamera
     from ....model.scene.lenses.lens_camera import LensCamera

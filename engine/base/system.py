@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -40,7 +39,10 @@ FOLDER = getattr(os, "O_DIRECTORY", 0) and (
 
 def decoded_name(name: bytes) -> str:
     """Return a file name of any bytes; `os.fsdecode` of Windows fails where they are no UTF-8."""
-    return name.decode(sys.getfilesystemencoding(), "surrogateescape")
+    try:
+        return os.fsdecode(name)
+    except UnicodeDecodeError:
+        return name.decode("utf-8", "surrogateescape")
 
 
 def usable_processors() -> int:

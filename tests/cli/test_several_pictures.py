@@ -14,6 +14,9 @@ from engine3d.apps.cli.usage import UsageError
 from engine3d.io.output.frame_names import frame_name, literal_name
 
 pytestmark = pytest.mark.usefixtures("no_screen")
+NOT_ON_WINDOWS = pytest.mark.skipif(
+    os.name == "nt", reason="dates hold any letter there, and names no colon"
+)
 FAST = [*SMALL, "--look", "plain"]
 
 
@@ -184,7 +187,7 @@ def test_variables(tmp_path):
         ("{n:-1}.png", "up to two digits"),
         ("{n:d}.png", "up to two digits"),
         ("{date:%999999999d}.png", "is no date"),
-        ("{date:\ud800\0}.png", "is no date"),
+        pytest.param("{date:\ud800\0}.png", "is no date", marks=NOT_ON_WINDOWS),
         ("{a!r}.png", "no variable"),
         ("{0.__class__}.png", "no variable"),
         ("{.png", "without '}'"),
@@ -198,7 +201,7 @@ def test_patterns_that_are_none(template, told):
 
 ODD = [
     "%04d",
-    "{:04}",
+    pytest.param("{:04}", marks=NOT_ON_WINDOWS),
     "{}",
     "{model}",
     "{n}",
@@ -225,14 +228,17 @@ def test_escapes():
     assert fill("%%04d{{:04}}.png", "x").place is None
     assert fill("%%04d{{:04}}.png", "x") == "%04d{:04}.png"
     assert fill("{{}}_{:02}%%d.png", "x").of_frame(3) == "{}_03%d.png"
-    assert frame_name("a/{{:04}}_%%d.png") == "a/{:04}_%d.png"
+    assert frame_name("a/{{:04}}_%%d.png") == os.path.join("a", "{:04}_%d.png")
     assert frame_name("%04d/a.png").place is None
-    assert frame_name("%04d/a_{}.png").of_frame(5) == "%04d/a_5.png"
+    assert frame_name("%04d/a_{}.png").of_frame(5) == os.path.join("%04d", "a_5.png")
     assert frame_name("%d%d.png").place is None
     assert literal_name("%04d.png").place is None
 
 
-@pytest.mark.parametrize("stem", ["m%04d", "m{:04}", "m{}", "m{model}", "m{n}", "m%s%n"])
+@pytest.mark.parametrize(
+    "stem",
+    ["m%04d", pytest.param("m{:04}", marks=NOT_ON_WINDOWS), "m{}", "m{model}", "m{n}", "m%s%n"],
+)
 def test_models_of_any_name_are_drawn(stem, tmp_path, capsys):
     (tmp_path / f"{stem}.obj").write_text(OBJ)
     assert main(["render", f"{stem}.obj", *SMALL, "-o", "{model}.png"]) == 0

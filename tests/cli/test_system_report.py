@@ -34,7 +34,7 @@ def test_it_says_what_a_report_of_a_bug_needs(capsys, monkeypatch):
     assert found["packages"]["numpy"] == metadata.version("numpy")
     assert set(found["extras"]) | set(found["missing_extras"]) > {"notebook", "video", "step"}
     assert not {"test", "fuzz"} & (set(found["extras"]) | set(found["missing_extras"]))
-    assert found["window"]["sdl"].count(".") == 2 and "DISPLAY" in found["window"]["missing"]
+    assert found["window"]["sdl"].count(".") == 2 and "no screen" in found["window"]["missing"]
     assert found["environment"]["ENGINE3D_THREADS"] == "3"
 
 
@@ -65,7 +65,8 @@ def test_known_holes_of_pillow_are_told(capsys, monkeypatch, version, is_told):
 
 def test_nothing_private_is_in_it(capsys, monkeypatch, tmp_path):
     home = tmp_path / "jane-doe"
-    monkeypatch.setenv("HOME", os.fspath(home))
+    for name in ("HOME", "USERPROFILE"):  # Windows has the latter
+        monkeypatch.setenv(name, os.fspath(home))
     monkeypatch.setenv("ENGINE3D_SHARED", os.fspath(home / "secret"))
     monkeypatch.setenv("ENGINE3D_NAME", "Jane Doe")
 

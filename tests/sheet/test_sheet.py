@@ -195,8 +195,11 @@ def test_bars_have_round_lengths(most, length):
 
 
 def test_long_texts_lose_their_middle():
-    assert marks.short("abcdefghijklmnop", 10) == "abcd...nop"
-    assert marks.short("abc", 10) == "abc"
+    font = e3d.Font("mono", 10)  # 6 pixels a character
+    assert marks.short("abcdefghijklmnop", 60, font) == "abcde…mnop"
+    assert marks.short("abc", 60, font) == "abc"
+    assert marks.short("abcdefghijklmnop", 20, font) == "ab…"
+    assert marks.short("abcdefghijklmnop", -1, font) == ""
 
 
 @pytest.mark.parametrize("models", [[], 3, [3], [None]])

@@ -76,10 +76,10 @@ def test_nine_outputs_stand_side_by_side(viewer):
     viewer.messages.said = ""
     viewer.draw()
     frame = viewer.frame
-    first = frame.color[24:80, :100]
-    np.testing.assert_array_equal(first, plain[1::3, 1::3][24:])
+    first = frame.color[30:80, :100]
+    np.testing.assert_array_equal(first, plain[1::3, 1::3][30:])
     tiles = [
-        frame.color[row * 80 + 24 : row * 80 + 80, column * 100 : column * 100 + 100].tobytes()
+        frame.color[row * 80 + 30 : row * 80 + 80, column * 100 : column * 100 + 100].tobytes()
         for row in range(3)
         for column in range(3)
     ]

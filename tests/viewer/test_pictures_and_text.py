@@ -88,7 +88,7 @@ def test_long_lines_are_wrapped(corner, monkeypatch):
     assert fits(canvas) and len(shown) > 2
     assert "".join(shown).replace(" ", "") == error.replace(" ", "")
     draw_block(canvas, [error] * 99, corner=corner)
-    assert fits(canvas) and shown[-1] == "..."
+    assert fits(canvas) and shown[-1] == "…"
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (640, 480)])

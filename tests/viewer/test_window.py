@@ -21,6 +21,7 @@ from engine3d.apps.viewer.sdl import (
 )
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.apps.viewer.window import POINTERS, Window
+from engine3d.stage.overlays.lettering import text_font
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
@@ -423,7 +424,7 @@ def test_texts_and_lists_are_twice_as_large_on_a_fine_screen(fine_window):
     viewer.draw()
     assert viewer.frame.color.shape == (600, 800, 4)
     assert view_renderer.text_scale(viewer.frame.canvas()) == 2
-    assert viewer.panel._row_height == 2 * (14 + 3)
+    assert viewer.panel._row_height == text_font(2).line_height == 35
     push(sdl2.SDL_MOUSEBUTTONDOWN, button__button=1, button__x=200, button__y=150)
     push(sdl2.SDL_MOUSEBUTTONUP, button__button=1, button__x=200, button__y=150)
     viewer.run_once()

@@ -9,7 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..reading.documents import Document, NodeRecord
+from ..reading.documents import Document
+from ..scenes.document_trees import NodeRecord
 
 
 def scale_document(document: Document, factor: float) -> None:

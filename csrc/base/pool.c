@@ -44,6 +44,12 @@ static pthread_once_t fork_guard = PTHREAD_ONCE_INIT;
 static _Thread_local int owning;          /* the pool */
 static _Thread_local int64_t together_ns; /* of the jobs that the thread has run */
 
+#if defined(_WIN32) || defined(__wasi__) /* where no process forks */
+
+static void guard_fork(void) {}
+
+#else
+
 /* A fork does not wait for a running job, which may itself wait for the forking thread, or be that thread's own. */
 static void before_fork(void) { pthread_mutex_lock(&pool.lock); }
 
@@ -60,6 +66,8 @@ static void in_child(void) /* only the forking thread exists in the child */
 }
 
 static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
+
+#endif
 
 /* The lock is held. */
 static void note_leaving(int64_t now)

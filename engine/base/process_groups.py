@@ -14,7 +14,7 @@ import sys
 from typing import Any
 
 
-class LeadingProcess(subprocess.Popen):
+class LeadingProcess(subprocess.Popen[bytes]):
     """A process that leads a group.
 
     Parameters

@@ -75,7 +75,7 @@ def has_alarm() -> bool:
     return hasattr(signal, "setitimer") and hasattr(signal, "SIGALRM")
 
 
-def next_in(waiting: queue.SimpleQueue) -> Any:
+def next_in(waiting: queue.SimpleQueue[Any]) -> Any:
     """Wait for the next item of a queue; on Windows, Ctrl-C interrupts only short waits."""
     import queue
 

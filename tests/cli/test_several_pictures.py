@@ -228,7 +228,7 @@ def test_escapes():
     assert fill("%%04d{{:04}}.png", "x").place is None
     assert fill("%%04d{{:04}}.png", "x") == "%04d{:04}.png"
     assert fill("{{}}_{:02}%%d.png", "x").of_frame(3) == "{}_03%d.png"
-    assert frame_name("a/{{:04}}_%%d.png") == os.path.join("a", "{:04}_%d.png")
+    assert frame_name("a/{{:04}}_%%d.png") == f"a{os.sep}{{:04}}_%d.png"
     assert frame_name("%04d/a.png").place is None
     assert frame_name("%04d/a_{}.png").of_frame(5) == os.path.join("%04d", "a_5.png")
     assert frame_name("%d%d.png").place is None

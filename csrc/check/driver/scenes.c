@@ -291,9 +291,13 @@ enum { LIGHT_KINDS = 0 E3D_EACH_LIGHT_KIND(ONE_MORE) };
 /* Gives an area light its size: any, often none or very much along either side. */
 static void extend_light(e3d_light *light, random_stream *r)
 {
-    float sizes[3];
-    for (int k = 0; k < 3; k++)
-        sizes[k] = random_once_in(r, 8) ? 0.0f : ldexpf(random_float(r, 0.5f, 1.0f), random_below(r, random_once_in(r, 8) ? 60 : 6) - 4);
+    float sizes[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        if (random_once_in(r, 8))
+            continue;
+        int32_t exponent = random_below(r, random_once_in(r, 8) ? 60 : 6) - 4;
+        sizes[k] = ldexpf(random_float(r, 0.5f, 1.0f), exponent);
+    }
     for (int k = 0; k < 6; k++)
         light->extent[k / 3][k % 3] = random_float(r, -1.0f, 1.0f) * sizes[k / 3];
     light->radius = sizes[2];

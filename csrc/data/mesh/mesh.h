@@ -8,7 +8,7 @@
 typedef struct e3d_cluster {
     /* X[stride], y[stride], z[stride] (, w[stride]), then three planes of E3D_CLUSTER_TRIANGLES local indices, uint8_t */
     const float *positions;
-    int32_t first; /* its first triangle in the mesh's `faces` */
+    _Alignas(8) int32_t first; /* its first triangle in the mesh's `faces`; in the same place after a pointer of 32 bits */
     uint8_t triangles, vertices;
     uint8_t stride;       /* the number of vertices, rounded up to 16: the distance of the planes of positions */
     uint8_t any_finite;

@@ -11,6 +11,7 @@
 #include "io/loaders/row_table.h"
 #include "io/loaders/rows.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -26,7 +27,11 @@
 #define FEWEST_PLACES ((size_t)64)
 #define MOST_TAG_BITS 2
 #endif
+#if SIZE_MAX > UINT32_MAX
 #define MOST_PLACES ((size_t)1 << 32)
+#else /* more than memory has */
+#define MOST_PLACES ((size_t)1 << 30)
+#endif
 /* After so many blocks, numbers are guessed again. */
 #define TRY_EVERY 32
 

@@ -69,7 +69,8 @@ static const uint32_t *soft_ranges_of(scene *s, const e3d_light_maps *shadow)
 /* Makes a light soft, from hardly at all to so wide that all lookups are as wide as may be. */
 static void soften(scene *s, e3d_light_maps *shadow, random_stream *r)
 {
-    shadow->soft = ldexpf(random_float(r, 0.5f, 1.0f), random_below(r, 16) - 10);
+    int32_t exponent = random_below(r, 16) - 10;
+    shadow->soft = ldexpf(random_float(r, 0.5f, 1.0f), exponent);
     shadow->widest = random_once_in(r, 2) ? random_float(r, 1.0f, 12.0f) : random_float(r, 1.0f, 64.0f);
     shadow->nearest = number(r, -1.2f, 0.0f);
     shadow->ranges = shadow->ranges ? soft_ranges_of(s, shadow) : NULL;
@@ -129,7 +130,11 @@ static void add_exact(e3d_light *light, int32_t *count, random_stream *r)
 {
     light->shadow.kind = E3D_SHADOW_EXACT;
     light->shadow.exact = (*count)++;
-    light->shadow.soft = random_once_in(r, 2) ? ldexpf(number(r, 0.5f, 1.0f), random_below(r, 16) - 10) : 0.0f;
+    light->shadow.soft = 0.0f;
+    if (random_once_in(r, 2)) {
+        int32_t exponent = random_below(r, 16) - 10;
+        light->shadow.soft = ldexpf(number(r, 0.5f, 1.0f), exponent);
+    }
 }
 
 void scene_add_shadows(scene *s, random_stream *r)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...base.optional_packages import require
+from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.scene.scene import Scene
 from .pyvista_scenes import scene_from_pyvista
@@ -30,6 +31,7 @@ def scene_from_vedo(thing: Any) -> Scene | None:
     for one in _objects(thing):
         scene = scene_from_pyvista(wrap(one.dataset))
         for node in () if scene is None else scene.nodes:
+            assert isinstance(node.object, Mesh)
             node.object.materials = [_material(one.actor)]
             whole.add(node.object, name=one.name or type(one).__name__.lower())
     return whole if whole.nodes else None

@@ -90,8 +90,9 @@ def _clip(polygon: Sequence[Point], plane: Sequence[float]) -> list[Point]:
 
 def _centre(x: list[float], y: list[float], w: list[float]) -> list[float] | None:
     """Return the point through which a projection's rays go; None without perspective."""
-    crossed = cross(y[:3], w[:3]), cross(w[:3], x[:3]), cross(x[:3], y[:3])
-    volume = dot(x[:3], crossed[0])
+    across, up, away = ((row[0], row[1], row[2]) for row in (x, y, w))
+    crossed = cross(up, away), cross(away, across), cross(across, up)
+    volume = dot(across, crossed[0])
     if volume == 0.0:
         return None
     rises = x[3], y[3], w[3]

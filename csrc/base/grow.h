@@ -19,9 +19,9 @@ static inline int e3d_array_reserve(e3d_array *array, size_t wanted, size_t size
     if (wanted <= array->room)
         return 1;
     size_t room = array->room ? array->room : 64;
-    while (room < wanted)
+    while (room < wanted && room <= SIZE_MAX / 2)
         room *= 2;
-    if (room > SIZE_MAX / size)
+    if (room < wanted || room > SIZE_MAX / size)
         return 0;
     void *data;
     if (room * size < E3D_LARGE_ROOM) {

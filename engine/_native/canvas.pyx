@@ -192,6 +192,8 @@ cdef class Glyphs:
         outline.ends = &ends[0] if outline.contours else NULL
         outline.scale_x = e3d_ratio(across, units_across)
         outline.scale_y = e3d_ratio(up, units_up)
+        # What a failure left behind isn't a glyph.
+        del self.glyph_bytes[self.count * E3D_GLYPH_PHASES * sizeof(e3d_glyph):]
         for phase in range(E3D_GLYPH_PHASES):
             outline.shift = phase * 256 // E3D_GLYPH_PHASES
             self.add_phase(&outline, advance)

@@ -67,7 +67,7 @@ cdef object checked_sides(object sides, const int32_t[:, ::1] faces):
     columns = sides.view(np.int32).reshape(-1, 5)
     if len(columns):
         require(0 <= columns[:, 2].min() and columns[:, 2:4].max() < 3 * faces.shape[0], "sides name faces that are not there")
-        require((columns[:, 3] >= 0).sum() == (columns[:, 4] > 1).sum(), "sides have second triangles if they have two uses")
+        require(((columns[:, 3] >= 0) == (columns[:, 4] > 1)).all(), "sides have second triangles if they have two uses")
     return sides.view(np.uint8)
 
 
@@ -216,18 +216,24 @@ def find_bodies(const int32_t[:, ::1] faces not None, size_t vertices) -> NDArra
     return bodies
 
 
-def cross_surfaces(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, const int32_t[::1] parts not None,
+def cross_surfaces(const double[:, ::1] places not None, const int32_t[:, ::1] faces not None, const int32_t[::1] parts,
                    double thickness, int threads) -> NDArray[Any]:
-    """Return the segments (S,) of `CROSSING` in which triangles (F, 3) of different parts (F,) cross."""
+    """Return the segments (S,) of `CROSSING` in which triangles (F, 3) of different parts (F,) cross.
+
+    Without parts: in which triangles without a common side do.
+    """
+    cdef const int32_t *part_numbers = NULL
     cdef e3d_crossing *crossings = NULL
     cdef size_t count = 0
     cdef e3d_status status
-    require(places.shape[1] == 3 and parts.shape[0] == faces.shape[0], "the arrays of triangles do not fit each other")
+    require(places.shape[1] == 3 and (parts is None or parts.shape[0] == faces.shape[0]), "the arrays of triangles do not fit each other")
     check_indices(faces, places.shape[0])
     if faces.shape[0] == 0:
         return np.empty(0, CROSSING)
+    if parts is not None:
+        part_numbers = &parts[0]
     with nogil:
-        status = e3d_cross_surfaces(&places[0, 0], &faces[0, 0], &parts[0], faces.shape[0], thickness, threads, &crossings, &count)
+        status = e3d_cross_surfaces(&places[0, 0], &faces[0, 0], part_numbers, faces.shape[0], thickness, threads, &crossings, &count)
     check(status)
     return taken(<void **>&crossings, count, CROSSING)
 
@@ -269,8 +275,9 @@ cdef class Edges:
             of, at = np.asarray(ends), np.asarray(beside)
             require(0 <= of.min() and of.max() < places.shape[0], "edges name vertices that are not there")
             require(0 <= at[:, 0].min() and -1 <= at.min() and at.max() < faces.shape[0], "edges name faces that are not there")
-            self.c.normals, self.c.parts, self.c.enclosing = &normals[0, 0], &parts[0], &enclosing[0]
             self.c.ends, self.c.beside, self.c.turned, self.c.kinds = &ends[0, 0], &beside[0, 0], &turned[0], &kinds[0]
+        if faces.shape[0]:
+            self.c.normals, self.c.parts, self.c.enclosing = &normals[0, 0], &parts[0], &enclosing[0]
         self.c.count = count
         self.kept = places, faces, normals, parts, enclosing, ends, beside, turned, kinds
 
@@ -303,7 +310,7 @@ def draw_view(
     require(0 < planes.shape[0] <= E3D_VIEW_PLANES and planes.shape[1] == 4, "a view has one plane to four")
     require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a projection is a matrix of four rows")
     others.count, others.cut = other_ends.shape[0], cut
-    require(outline >= 0 and (not others.count or np.asarray(other_kinds).min() >= 0), "kinds are at least 0")
+    require(0 <= outline < 128 and (not others.count or np.asarray(other_kinds).min() >= 0), "kinds are at least 0")
     if others.count:
         others.ends, others.kinds, others.parts = &other_ends[0, 0, 0], &other_kinds[0], &other_parts[0]
     memcpy(view.clip_from_world, &clip_from_world[0, 0], sizeof(view.clip_from_world))

@@ -204,6 +204,13 @@ def test_what_the_fonts_lack_shows_one_box(character):
         assert drawn(character, font).any()
 
 
+def test_characters_that_no_font_has_share_one_picture():
+    font = e3d.Font("sans", 60)
+    font.width("".join(map(chr, range(0x4E00, 0x4F00))))
+    assert font._glyphs.count == 1
+    assert font.fitted("x" * 100_000, 200).endswith("x…")
+
+
 def test_a_font_made_before_draws_the_same():
     used, fresh = e3d.Font("sans", 19), e3d.Font("sans", 19)
     used.width("zyxwvutsrqponmlkjihgfedcba")

@@ -48,6 +48,20 @@ def test_bodies_that_share_an_edge_count_as_open():
     assert (enclosing(places, faces) == 0).all()
 
 
+def bow_tie():
+    """A prism over a quadrilateral whose sides cross: its small part is inside out."""
+    profile = [(0.0, 0.0), (4.0, 2.0), (4.0, 0.0), (0.0, 1.0)]
+    places = [(x, y, z) for z in (0.0, 1.0) for x, y in profile]
+    sides = [(i, (i + 1) % 4) for i in range(4)]
+    walls = [face for i, j in sides for face in ((i, j, j + 4), (i, j + 4, i + 4))]
+    return e3d.Mesh(places, [*walls, (4, 5, 6), (4, 6, 7), (0, 2, 1), (0, 3, 2)])
+
+
+def test_a_body_that_runs_through_itself_counts_as_open():
+    mesh = bow_tie()
+    assert (enclosing(mesh.positions, mesh.faces) == 0).all()
+
+
 def crowd(rng):
     """Return a scene of closed and open meshes that run through each other, some mirrored."""
     scene = e3d.Scene()

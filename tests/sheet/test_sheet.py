@@ -195,11 +195,12 @@ def test_bars_have_round_lengths(most, length):
 
 
 def test_long_texts_lose_their_middle():
-    font = e3d.Font("mono", 10)  # 6 pixels a character
-    assert marks.short("abcdefghijklmnop", 60, font) == "abcde…mnop"
-    assert marks.short("abc", 60, font) == "abc"
-    assert marks.short("abcdefghijklmnop", 20, font) == "ab…"
-    assert marks.short("abcdefghijklmnop", -1, font) == ""
+    width = e3d.Font("mono", 10).width  # 6 pixels a character
+    assert marks.short("abcdefghijklmnop", 60, width) == "abcdef…nop"
+    assert marks.short("abcdefghijklmnop", 10, len) == "abcdef…nop"
+    assert marks.short("abc", 60, width) == "abc"
+    assert marks.short("abcdefghijklmnop", 20, width) == "ab…"
+    assert marks.short("abcdefghijklmnop", 5, width) == ""
 
 
 @pytest.mark.parametrize("models", [[], 3, [3], [None]])

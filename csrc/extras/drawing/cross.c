@@ -116,6 +116,17 @@ static int cross_pair(const crossings *job, const triangle *one, int32_t face, i
     return 1;
 }
 
+/* Without parts, triangles with a common side don't cross. */
+static int may_cross(const crossings *job, int32_t a, int32_t b)
+{
+    if (job->parts)
+        return job->parts[a] != job->parts[b];
+    int shared = 0;
+    for (size_t k = 0; k < 9; k++)
+        shared += job->faces[3 * (size_t)a + k / 3] == job->faces[3 * (size_t)b + k % 3];
+    return shared < 2;
+}
+
 static int cross_face(const crossings *job, int32_t face, e3d_array *out)
 {
     struct {
@@ -134,7 +145,7 @@ static int cross_face(const crossings *job, int32_t face, e3d_array *out)
             continue;
         if (level == 0) {
             int32_t other = job->boxes.items[box];
-            if (other > face && job->parts[other] != job->parts[face])
+            if (other > face && may_cross(job, face, other))
                 fits = cross_pair(job, &one, face, other, out);
             continue;
         }

@@ -64,7 +64,7 @@ static int add_row(const muj_picture *picture, muj_shader *shader, const muj_lay
         int32_t what = samples == 1 ? shown[x] : shown_by_all(shown + 4 * x);
         uint32_t counts = stencil ? stencil[x] : all;
         end = x + 1;
-        if (what == MIXED || (what >= 0 && counts != all)) {
+        if (what == MIXED || counts != all) {
             if (counts && !(samples == 1 ? 1 : add_mixed(shader, layer, shown + 4 * x, counts, x, y, out)))
                 return 0;
             continue;

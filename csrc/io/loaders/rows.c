@@ -66,7 +66,7 @@ static bool empty_places(table *t, size_t size)
     free(t->places);
     t->size = size;
     t->tag_bits = tag_bits_of(size);
-    t->places = e3d_large_memory(size * sizeof *t->places);
+    t->places = size > SIZE_MAX / sizeof *t->places ? NULL : e3d_large_memory(size * sizeof *t->places);
     if (t->places)
         memset(t->places, 0, size * sizeof *t->places);
     return t->places;

@@ -64,6 +64,17 @@ class MeshEdges(NamedTuple):
     lines: NDArray[np.int32]
 
 
+def _open_what_crosses_itself(
+    enclosing: NDArray[np.int8], positions: NDArray[np.float64], faces: NDArray[np.int32]
+) -> None:
+    """Let bodies that run through themselves enclose nothing: parts of them may be inside out."""
+    thickness = FLAT * float(np.abs(positions).max())
+    pairs = native.cross_surfaces(positions, faces, None, thickness, 1)["faces"]
+    bodies = native.find_bodies(faces, len(positions))
+    first, second = bodies[pairs].T
+    enclosing[np.isin(bodies, first[first == second])] = 0
+
+
 @np.errstate(all="ignore")
 def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
     """Return the triangles and edges of a mesh.
@@ -89,6 +100,8 @@ def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
     sides = native.find_sides(faces, len(positions))
     ends, beside, turned = native.unfold_sides(faces, sides)
     enclosing = native.find_enclosing(positions, faces, sides)
+    if enclosing.any():
+        _open_what_crosses_itself(enclosing, positions, faces)
     uses = np.ascontiguousarray(sides["uses"])
     is_needless = None
     if is_flat.any():

@@ -203,7 +203,7 @@ class SheetPage:
         if any(one.polylines for one in hatching):
             group.layers.append((HATCHING, hatching))
         group.layers += layers_of(drawing, self._look.hidden, self._look.line_width)
-        title = short(view.spec.name, max(int(width / 2.0), 8))
+        title = short(view.spec.name, max(int(width / 2.0), 8), len)
         group.texts.append(Text(1.0, 4.0, title, _SMALL + 1.0))
         if not len(pieces.ends):
             group.texts.append(Text(1.0, 8.0, "no lines", _SMALL))
@@ -256,7 +256,7 @@ class SheetPage:
         unit = self._unit or "mm"
         told = f"X x Y x Z: {sizes} {unit}. {self._up} is up"
         group.texts += [
-            Text(x + 3.0, y + 9.0, short(self._model.title, columns), _LARGE),
+            Text(x + 3.0, y + 9.0, short(self._model.title, columns, len), _LARGE),
             Text(x + 3.0, bottom - 4.0, told, _SMALL),
             Text(middle + 3.0, y + 7.5, f"Scale {scale_text(self.scale)}", _LARGE - 1.0),
             Text(middle + 3.0, bottom - 4.0, f"{page}, lengths in {unit}", _SMALL),

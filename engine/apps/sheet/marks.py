@@ -6,11 +6,12 @@ In: a canvas over the sheet, rectangles, lengths. Out: the same pixels, drawn on
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
+from collections.abc import Callable
 
 import numpy as np
 
 from ...rendering.canvas import Canvas
-from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import AXIS_COLORS
 from ...stage.overlays.theme import DARK, Rgba, Theme
@@ -35,16 +36,17 @@ def length_text(value: float, unit: str | None) -> str:
     return text if not unit else f"{text} {unit}"
 
 
-def short(text: str, width: int, font: Font) -> str:
-    """Return a text shortened to a maximum width in pixels, by omitting its middle."""
-    if font.width(text) <= width:
+def short(text: str, most: int, width: Callable[[str], int]) -> str:
+    """Return a text shortened to a maximum width, by omitting its middle."""
+    if width(text) <= most:
         return text
-    for kept in range(len(text) - 1, 5, -1):
-        head = kept * 3 // 5
-        shortened = f"{text[:head]}…{text[head - kept :]}"
-        if font.width(shortened) <= width:
-            return shortened
-    return font.fitted(text, max(width, 0))
+
+    def shortened(kept: int) -> str:
+        head = (kept * 3 + 4) // 5
+        return f"{text[:head]}…{text[len(text) - kept + head :]}"
+
+    kept = bisect_right(range(len(text)), most, key=lambda kept: width(shortened(kept))) - 1
+    return shortened(kept) if kept >= 0 else ""
 
 
 def line_color(theme: Theme) -> Rgba:

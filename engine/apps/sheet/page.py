@@ -168,13 +168,13 @@ class _Page:
         if panel.spec.camera is None:
             marks.draw_triad(window, corner, height - corner, panel.pose[:3, :3], theme, text)
         font, room = text_font(text), width - 16 * text
-        name = marks.short(printable(panel.spec.name), room, font)
+        name = marks.short(printable(panel.spec.name), room, font.width)
         window.text(8 * text, 5 * text, name, theme.title, font=font)
         if panel.reason is not None:
             place = font.width(name) + 14 * text
             reason = f"blank: {panel.reason.sentence}"
             if font.width(reason) > room - place:
-                reason = marks.short(f"blank: {panel.reason.word}", room - place, font)
+                reason = marks.short(f"blank: {panel.reason.word}", room - place, font.width)
             window.text(8 * text + place, 5 * text, reason, theme.key, font=font)
         marks.draw_frame(canvas, panel.rectangle, studio.paper)
 
@@ -197,7 +197,7 @@ class _Page:
         x, y, width, _ = self._area
         text, theme = self._text, studio.paper
         heading, font, room = heading_font(text), text_font(text), width - 2 * _MARGIN * text
-        title, facts = marks.short(told["title"], room, heading), _facts(told)
+        title, facts = marks.short(told["title"], room, heading.width), _facts(told)
         self._canvas.text(x + _MARGIN * text, y + 6 * text, title, theme.text, font=heading)
         if heading.width(title) + font.width(facts) + 2 * _MARGIN * text <= room:
             place = x + width - _MARGIN * text - font.width(facts)

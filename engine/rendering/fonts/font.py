@@ -7,6 +7,7 @@ Out: pixels of a canvas, by `Canvas.text`; widths in pixels. All is integer arit
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from functools import cache
 from threading import Lock
 from typing import Literal
@@ -70,6 +71,7 @@ class Font(FixedNames):
         self._glyphs = native.Glyphs(round(_ASCENT * self.size), self._line_height)
         self._numbers = {"\n": _NEW_LINE}
         self._advances = {"\n": 0}
+        self._pictures: dict[tuple[TrueType, int], tuple[int, int]] = {}
         self._lock = Lock()
 
     @property
@@ -102,9 +104,9 @@ class Font(FixedNames):
         most = _room(width)
         if self.width(string) <= most:
             return string
-        while string and self.width(string + _ELLIPSIS) > most:
-            string = string[:-1]
-        return string.rstrip() + _ELLIPSIS if string else ""
+        ends = range(len(string))
+        kept = bisect_right(ends, most, key=lambda end: self.width(string[:end] + _ELLIPSIS)) - 1
+        return string[:kept].rstrip() + _ELLIPSIS if kept > 0 else ""
 
     def wrapped(self, string: str, width: int) -> list[str]:
         """Return lines that are at most so many pixels wide, broken between words if possible."""
@@ -139,12 +141,18 @@ class Font(FixedNames):
         """Make the glyphs of a text that are not there yet; the caller holds the lock."""
         for character in set(string) - self._numbers.keys():
             face, glyph = _glyph_of(character, self._face)
+            self._numbers[character], self._advances[character] = self._picture(face, glyph)
+
+    def _picture(self, face: TrueType, glyph: int) -> tuple[int, int]:
+        """Return the number of a glyph and its advance; characters may share one."""
+        if (face, glyph) not in self._pictures:
             unit = self._parts * (_PARTS // _SIZE_PARTS), face.units_per_em
             advance = _rounded(face.advance(glyph), unit, _PARTS if self._face == "mono" else 1)
             # Small letters end at a pixel's edge, so that they are sharp.
             high = max(_rounded(face.x_height, unit, _PARTS), _PARTS), face.x_height
             number = self._glyphs.add(*face.outline(glyph), *unit, *high, advance)
-            self._numbers[character], self._advances[character] = number, advance
+            self._pictures[face, glyph] = number, advance
+        return self._pictures[face, glyph]
 
     def __reduce__(self) -> tuple[type[Font], tuple[Face, float]]:
         return Font, (self._face, self.size)

@@ -116,6 +116,7 @@ class _Drawn:
         """
         self.is_new, self.compared, self.nearest, self.lookups = True, None, None, None
         self.casters.forget()
+        self.moment.forget()
         if lookups is None or self.changes < 2 or self.faces < _MANY_FACES:
             return None
         region = region_of(lookups, seen.clip_from_world)

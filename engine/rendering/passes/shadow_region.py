@@ -70,7 +70,9 @@ def lookups_of(
     found: list[Lookups | None] = []
     for scale, _, _ in views.places:
         moved = abs(light.shadow_normal_bias) * scale + 1.25 * reach * math.sqrt(2.0)
-        found.append(Lookups(view, box, 2.0 * (moved + reach) / views.size + 2.0 * _SPARE))
+        found.append(
+            Lookups(view, box, 2.0 * (moved + math.sqrt(2.0) * reach) / views.size + 2.0 * _SPARE)
+        )
     return found
 
 

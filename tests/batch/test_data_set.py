@@ -7,10 +7,10 @@ from engine3d.batch import read_manifest, run
 
 FOLDER = Path(__file__).parents[2] / "benchmarks" / "data_set"
 FIRST = {
-    "000000.png": "82c6dce6e8ae1244",
-    "000001.png": "30faa2b634e03095",
-    "000002.png": "bb02e423d8ac9543",
-    "000003.png": "af6bb30df5be839a",
+    "000000.png": "33c9384eb25306e1",
+    "000001.png": "a92651144553785e",
+    "000002.png": "b78dc58d67bdee2d",
+    "000003.png": "5621c529c25322b7",
 }
 
 

@@ -190,7 +190,7 @@ def test_a_script_may_write_files_beside(place, manifest):
 
 
 FAILING = [
-    ({**SCRIPT, "function": "fail"}, "script.py:35: ValueError: no such thing"),
+    ({**SCRIPT, "function": "fail"}, "script.py:36: ValueError: no such thing"),
     ({**SCRIPT, "function": "nothing"}, "script.py: there is no function nothing"),
     ({**SCRIPT, "arguments": {"size": 1}}, "TypeError: build() got an unexpected keyword"),
     ({**SCRIPT, "function": "returned"}, "what returned returned: must be None or a dict, not 3"),

@@ -55,6 +55,7 @@ def locking(handle, mode, count):
         raise PermissionError(13, "locked")
 sys.modules["msvcrt"] = types.SimpleNamespace(LK_NBLCK=2, locking=locking)
 
+sys.modules["open3d"] = None  # its package asks for what Windows has
 import engine3d
 for module in pkgutil.walk_packages(engine3d.__path__, "engine3d."):
     if module.name.startswith(("engine3d._native", "engine3d.lessons")):

@@ -126,7 +126,7 @@ def _show(thing, size, format, settings: Settings, **how: Any) -> None:
     viewed = None
     if is_foreign_array(thing) and not isinstance(thing, Frame):
         thing = as_array(thing, "thing")
-    if not isinstance(thing, np.ndarray):
+    if not isinstance(thing, np.ndarray | Frame | Canvas):
         viewed = viewed_thing(thing, **how)
     if viewed is None:
         if not isinstance(thing, (Frame, Canvas, np.ndarray, Sequence)):

@@ -118,7 +118,7 @@ def metadata() -> str:
 <component type="desktop-application">
   <id>engine3d.desktop</id>
   <metadata_license>MIT</metadata_license>
-  <project_license>MIT</project_license>
+  <project_license>MIT AND OFL-1.1</project_license>
   <name>engine3d</name>
   <summary>{SUMMARY}</summary>
   <description>

@@ -220,6 +220,10 @@ class _Page:
         """Return nothing: events come with the browser's messages."""
         return []
 
+    def key_at(self, position: str) -> str:
+        """Return the position: no keyboard's layout is known."""
+        return position
+
     def capture_mouse(self, captured: bool) -> None:
         """Do nothing: a page cannot capture the pointer."""
 

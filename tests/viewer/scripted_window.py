@@ -17,6 +17,7 @@ class ScriptedWindow:
         self.captured = False
         self.fullscreen = False
         self.scale = 1
+        self.layout = {}
 
     def events(self, timeout=0.0):
         from engine3d.events import CloseRequested
@@ -33,6 +34,9 @@ class ScriptedWindow:
     @title.setter
     def title(self, title):
         self.titles.append(title)
+
+    def key_at(self, position):
+        return self.layout.get(position, position)
 
     def capture_mouse(self, captured):
         self.captured = captured

@@ -45,6 +45,18 @@ def test_the_help_names_every_key():
     assert any("drag" in key for key, _ in rows)
 
 
+def test_the_help_of_walking_names_the_keys_of_the_layout():
+    azerty = {"W": "Z", "A": "Q", "Q": "A"}
+    rows = dict(
+        row for column in help_columns(lambda key: azerty.get(key, key)) for row in column if row[0]
+    )
+    assert rows["Z Q S D"] == "walk" and rows["E A"].startswith("up, down")
+    assert rows["W"] == "wireframe: off, overlay, only"  # no key of AZERTY's WASD
+    assert not {"Z", "A", "S", "D", "E", "Q", "Left", "Up"} & rows.keys()
+    assert rows["PageDown"] == "next model of the folder"
+    assert not any("drag" in key for key in rows)
+
+
 def test_walking_keys_are_positions_of_letters_and_arrows():
     assert {"W", "A", "S", "D"} <= set(MOVES)
     assert {"Up", "Down", "Left", "Right"} == set(LOOKS)

@@ -408,6 +408,15 @@ def test_on_a_fine_screen_pictures_have_all_pixels_and_the_mouse_counts_them(fin
     assert (moved.x, moved.y) == (100, 200)
 
 
+def test_positions_of_keys_have_the_layout_s_names(window, monkeypatch):
+    assert [window.key_at(place) for place in ("W", "Left", "7", "no key")] == [
+        *("W", "Left", "7", "no key")
+    ]
+    monkeypatch.setattr(sdl2, "SDL_GetKeyFromScancode", lambda code: {26: ord("z")}.get(code, 0))
+    monkeypatch.setattr(window, "_sdl", sdl2)
+    assert (window.key_at("W"), window.key_at("A")) == ("Z", "A")
+
+
 def test_a_captured_mouse_counts_its_own_steps(fine_window, monkeypatch):
     monkeypatch.setattr(sdl2, "SDL_GetRelativeMouseMode", lambda: True)
     push(sdl2.SDL_MOUSEMOTION, motion__x=1, motion__y=1, motion__xrel=3, motion__yrel=-2)

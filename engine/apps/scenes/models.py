@@ -28,7 +28,7 @@ def showcase() -> ViewedScene:
         DirectionalLight((-0.55, -0.75, -0.55), linear(1.0, 0.94, 0.82), 0.95 * WHITE_INTENSITY)
     )
     scene.add(DirectionalLight((0.7, -0.25, 0.5), linear(0.65, 0.80, 1.0), 0.18 * WHITE_INTENSITY))
-    viewed.title = "default"
+    viewed.title = "island"
     viewed.plays = True
     viewed.period = SHOWCASE_SECONDS
     return viewed

@@ -183,6 +183,10 @@ class TerminalWindow:
     def _size_changed(self, number, frame) -> None:
         self._resized = True
 
+    def key_at(self, position: str) -> str:
+        """Return the position: no keyboard's layout is known."""
+        return position
+
     def capture_mouse(self, captured: bool) -> None:
         """Do nothing: a terminal cannot capture the mouse."""
 

@@ -6,16 +6,27 @@ In: a `Canvas` over the frame's pixels and the number of a page. Out: the same p
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Callable
+from typing import TypeAlias
 
 from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import PADDING, place, text_scale
 from ...stage.overlays.theme import DARK, Theme
-from .keymap import GESTURES, SECTIONS
+from ...stage.views.fps import LOOKS, MOVES
+from .keymap import GESTURES, SECTIONS, WALKING, WALKING_GESTURES
 
 #: A row is a key and its action; titles and empty rows have no second part.
 Row = tuple[str, str]
 GAP: Row = ("", "")
+#: Returns what the key at a position of a US keyboard types.
+KeyAt: TypeAlias = Callable[[str], str]
+#: The titles of the sections in each of three columns.
+_COLUMNS = (
+    ("Walking", "Drawing"),
+    ("View", "Mouse"),
+    ("Overlays", "Files", "Window"),
+)
 #: As wide as the gap between a key and its action, and that between two columns of the help.
 KEY_GAP, GUTTER = "nn", "nnn"
 
@@ -40,24 +51,42 @@ class HelpPages:
         self.page = page
 
 
-def help_sections() -> list[list[Row]]:
-    """Return the sections of the help, each a list of rows; the first row is its title."""
-    sections = [
-        [(title, ""), *((" ".join(binding.keys), binding.help) for binding in bindings)]
-        for title, bindings in SECTIONS.items()
+def help_sections(key_at: KeyAt | None = None) -> list[list[Row]]:
+    """Return the sections of the help, each a list of rows; the first row is its title.
+
+    Parameters
+    ----------
+    key_at : callable, optional
+        Given while one walks: it returns what the key at a position of a US keyboard types. Keys
+        that walk have no other meaning then.
+    """
+    taken = set() if key_at is None else {key_at(position) for position in (*MOVES, *LOOKS)}
+    sections = []
+    for title, bindings in SECTIONS.items():
+        rows = [
+            (" ".join(key for key in one.keys if key not in taken), one.help) for one in bindings
+        ]
+        sections.append([(title, ""), *(row for row in rows if row[0])])
+    if key_at is None:
+        return [*sections, [("Mouse", ""), *GESTURES]]
+    walking = [(" ".join(map(key_at, positions)), text) for positions, text in WALKING]
+    return [[("Walking", ""), *walking, *WALKING_GESTURES], *sections]
+
+
+def help_columns(key_at: KeyAt | None = None) -> list[list[Row]]:
+    """Return the help in three columns; parameters as of `help_sections`."""
+    sections = {section[0][0]: section for section in help_sections(key_at)}
+    return [
+        [row for title in column if title in sections for row in (*sections[title], GAP)][:-1]
+        for column in _COLUMNS
     ]
-    return [*sections, [("Mouse", ""), *GESTURES]]
 
 
-def help_columns() -> list[list[Row]]:
-    """Return the help in three columns."""
-    drawing, view, overlays, files, window, mouse = help_sections()
-    return [drawing, [*view, GAP, *mouse], [*overlays, GAP, *files, GAP, *window]]
-
-
-def help_lines(columns: int, rows: int, page: int = 0) -> tuple[list[str], int]:
+def help_lines(
+    columns: int, rows: int, page: int = 0, key_at: KeyAt | None = None
+) -> tuple[list[str], int]:
     """Return one page of the help as lines of text, and how many pages there are."""
-    pages = _pages(_Characters(), columns, rows)
+    pages = _pages(help_sections(key_at), _Characters(), columns, rows)
     shown = pages[min(page, len(pages) - 1)]
     indent = _indent(shown, _Characters())
     lines = [f"{key:{indent}}{text}" if text else key for key, text in shown]
@@ -74,7 +103,13 @@ class _Characters:
         return textwrap.wrap(text, width)
 
 
-def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DARK) -> int:
+def draw_help(
+    canvas,
+    page: int = 0,
+    scale: int | None = None,
+    theme: Theme = DARK,
+    key_at: KeyAt | None = None,
+) -> int:
     """Draw keys and gestures on a block in the middle.
 
     Parameters
@@ -86,6 +121,8 @@ def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DA
     scale : int, optional
         Factor on the font's size; by default what suits the picture.
     theme : Theme
+    key_at : callable, optional
+        As of `help_sections`.
 
     Returns
     -------
@@ -95,11 +132,11 @@ def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DA
     font = text_font(scale or text_scale(canvas))
     inset = 5 * PADDING
     room, rows = canvas.width - inset, (canvas.height - inset) // font.line_height
-    columns = help_columns()
+    columns = help_columns(key_at)
     if _whole_width(columns, font) <= room and max(map(len, columns)) <= rows:
         _draw_columns(canvas, columns, font, theme)
         return 1
-    pages = _pages(font, room, rows)
+    pages = _pages(help_sections(key_at), font, room, rows)
     page = min(page, len(pages) - 1)
     _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], font, theme)
     return len(pages)
@@ -109,10 +146,12 @@ def _more(page: int, count: int) -> str:
     return f"{page + 1} of {count}; H: " + ("more" if page + 1 < count else "close")
 
 
-def _pages(ruler: Font | _Characters, room: int, rows: int) -> list[list[Row]]:
+def _pages(
+    sections: list[list[Row]], ruler: Font | _Characters, room: int, rows: int
+) -> list[list[Row]]:
     """Return the help as pages of at most ``rows`` - 1 rows, as wide as the room."""
     rows, pages = max(rows - 1, 2), []
-    for title, *entries in help_sections():
+    for title, *entries in sections:
         indent = _indent(entries, ruler)
         page = [title]
         for key, text in entries:

@@ -103,11 +103,16 @@ def _translated(sdl2, event, modifiers: int, place: Place):
     return None
 
 
+def key_name(sdl2, code: int) -> str:
+    """Return the name of SDL's number of a key; letters are capitals."""
+    name = sdl2.SDL_GetKeyName(code).decode("utf-8", "replace")
+    return name.upper() if len(name.upper()) == 1 else name
+
+
 def _key(sdl2, event, down: bool):
     symbol = event.keysym
-    key = sdl2.SDL_GetKeyName(symbol.sym).decode("utf-8", "replace").upper()
+    key = key_name(sdl2, symbol.sym)
     position = sdl2.SDL_GetScancodeName(symbol.scancode).decode("ascii", "replace")
-    key = key if len(key) == 1 else sdl2.SDL_GetKeyName(symbol.sym).decode("utf-8", "replace")
     if not down:
         return KeyUp(key, position)
     shift = bool(symbol.mod & sdl2.KMOD_SHIFT)

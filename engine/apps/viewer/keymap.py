@@ -54,7 +54,7 @@ SECTIONS = {
         Binding(("Ctrl+Y",), "turn_y_up", "+Y is up (Shift: -Y)"),
         Binding(("Ctrl+Z",), "turn_z_up", "+Z is up (Shift: -Z)"),
         Binding(("R", "Return", "Enter"), "reset_view", "reset"),
-        Binding(("Tab",), "toggle_walking", "walk: WASD, mouse, arrows"),
+        Binding(("Tab",), "toggle_walking", "walk, by keys and mouse"),
         Binding(("C",), "freeze_culling", "while held: cull, count as from here"),
         Binding(("Space",), "toggle_playing", "pause or play"),
         Binding(("J",), "cycle_animations", "next animation (Shift: previous)"),
@@ -95,6 +95,17 @@ GESTURES = (
     ("right drag", "pan (also Shift+left)"),
     ("Shift+right", "turn the light"),
     ("drop", "open files"),
+)
+#: Walking, for the help: positions of keys, as on a US keyboard, and what they do.
+WALKING = (
+    (("W", "A", "S", "D"), "walk"),
+    (("E", "Q"), "up, down, without a ground"),
+)
+WALKING_GESTURES = (
+    ("mouse, arrows", "look around"),
+    ("Shift", "faster"),
+    ("wheel", "speed"),
+    ("Tab Escape", "orbit again"),
 )
 #: Actions that repeat while their key is held.
 REPEATED = ("orbit_left", "orbit_right", "orbit_up", "orbit_down")

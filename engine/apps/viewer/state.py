@@ -155,4 +155,5 @@ class ViewerState:
         self.walker.place(self.view)
         if isinstance(self.walker, GroundController):
             said += f"; {told(self.walker.grid)}"
-        self.say(f"{said}; WASD, mouse or arrows to look; Tab or Esc to leave")
+        keys = "".join(map(self.window.key_at, "WASD"))
+        self.say(f"{said}; {keys}, mouse or arrows to look; Tab or Esc to leave")

@@ -23,7 +23,7 @@ from ...stage.views.fps import LOOKS, MOVES
 from .. import events
 from . import actions as viewer_actions
 from .animation_bar import draw_bar
-from .help_panel import draw_help, help_lines
+from .help_panel import KeyAt, draw_help, help_lines
 from .keymap import REPEATED, action_for
 from .model_files import ModelFiles
 from .mouse import Mouse
@@ -182,7 +182,7 @@ class Viewer(ViewerState):
                 draw_outline(self.frame, self.selected, WIDTH * scale)
             draw_block(canvas, self._selection(), corner="bottom right", **look)
         if self.help.shown:
-            self.help.count = draw_help(canvas, self.help.page, **look)
+            self.help.count = draw_help(canvas, self.help.page, **look, key_at=self._walking_keys())
         elif self.statistics:
             draw_block(canvas, self._statistics(), is_table=self.statistics != "short", **look)
         if self.panel is not None:
@@ -196,13 +196,18 @@ class Viewer(ViewerState):
         """Return the overlays as lines, for a window that writes text."""
         lines = [] if self.selected is None else self._selection()
         if self.help.shown:
-            page, self.help.count = help_lines(*self.window.text_room, self.help.page)
+            page, self.help.count = help_lines(
+                *self.window.text_room, self.help.page, self._walking_keys()
+            )
             lines += page
         elif self.statistics:
             lines += self._statistics()
         if self.panel is not None:
             lines += self.panel.lines()
         return lines + self.messages.lines()
+
+    def _walking_keys(self) -> KeyAt | None:
+        return None if self.walker is None else self.window.key_at
 
     def _selection(self) -> list[str]:
         return selection_lines(self.selected, self.view_renderer.viewed.origin)

@@ -20,7 +20,7 @@ from ...stage.overlays.frame_times import FrameRate
 from .. import events
 from .held import HeldInput
 from .icon import set_icon
-from .input import Translator, window_number
+from .input import Translator, key_name, window_number
 from .pixels import Picture, as_pixels
 from .presenter import Presenter
 from .sdl import (
@@ -252,6 +252,19 @@ class Window(FixedNames):
     def mouse(self) -> tuple[int, int] | None:
         """The mouse's position in pixels of the picture; None outside the window."""
         return self._held.mouse
+
+    @checks_types
+    def key_at(self, position: str) -> str:
+        """Return what a key types, by its position: on AZERTY, ``"Z"`` for ``"W"``.
+
+        Parameters
+        ----------
+        position : str
+            What the key there types on a US keyboard, as `events.KeyDown` tells it.
+        """
+        self._opened()
+        there = self._sdl.SDL_GetScancodeFromName(position.encode("ascii", "replace"))
+        return key_name(self._sdl, self._sdl.SDL_GetKeyFromScancode(there)) or position
 
     @checks_types
     def capture_mouse(self, captured: bool) -> None:

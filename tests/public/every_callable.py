@@ -213,6 +213,7 @@ RIGHT: dict[str, Any] = {
     "Canvas.triangle.a": (1.0, 2.0),
     "Canvas.triangle.b": (9.0, 2.0),
     "Font.face": "mono",
+    "Window.key_at.position": "W",
     "Font.size": 12.0,
     "linalg.multiply.a": np.eye(4),
     "linalg.multiply.b": np.eye(4),

@@ -184,7 +184,8 @@ class Headers:
 
     def variables(self, text):
         """The variables of one declaration: int a, *b[3]."""
-        text = re.sub(r"\s+", " ", text.strip())
+        # Alignment is for processors of 32 bits: it moves nothing where layouts are read.
+        text = re.sub(r"^_Alignas\(\d+\) ", "", re.sub(r"\s+", " ", text.strip()))
         base = re.match(r"((?:const |unsigned |struct |_Atomic )*)(\w+)( const)?", text)
         words = f"{base[1]}{base[3] or ''}".split()
         kind = " ".join([*(w for w in words if w in ("unsigned", "struct")), base[2]])

@@ -360,11 +360,11 @@ class Canvas(FixedNames):
             raise InvalidArgumentError(
                 f"font must be a Font, without a scale, not {shown(font)} with {scale}"
             )
-        size = font.text_size(string) if font else text_size(string, scale)
-        if background is not None and string:
+        if background is not None and checked_text(string):
             _color_bytes(background, "background")
+            width, height = font.text_size(string) if font else text_size(string, scale)
             pad = round(font.size / 8) if font else 2 * scale
-            (left, top), (width, height) = np.floor((x, y)) - pad, size
+            left, top = np.floor((x, y)) - pad
             self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
         if font:
             font._draw(self._surface, x, y, string, ink)
@@ -388,6 +388,13 @@ def text_size(string: str, scale: int = 1) -> tuple[int, int]:
         Size in pixels of the text's cells, without the background's margin.
     """
     return native.text_size(_codes(string), _scale(scale))
+
+
+def lay_over(below: NDArray[np.uint8], pixels: NDArray[np.uint8]) -> None:
+    """Blend RGBA pixels over opaque ones, (H, W, 3) or (H, W, 4), as the canvas blends a colour."""
+    alpha = pixels[..., 3:].astype(np.uint16)
+    mixed = alpha * pixels[..., :3] + (255 - alpha) * below[..., :3]
+    below[..., :3] = (mixed + 127) // 255
 
 
 def _new_pixels(size: object) -> NDArray[np.uint8]:

@@ -21,6 +21,7 @@ from ...model.materials.textures import Texture
 from ...model.primitives import uv_sphere
 from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ...model.scene.scene import Scene
+from ...rendering.canvas import lay_over
 from ...rendering.renderer import Renderer
 
 MOST = 512
@@ -115,7 +116,5 @@ def shrunk(texture: Texture, size: int) -> NDArray[np.uint8]:
     picture = np.full((size, size, 4), 255, np.uint8)
     picture[:, :, :3] = _CHECKERS[(line[:, np.newaxis] + line) % 2]
     top, left = (size - rows) // 2, (size - columns) // 2
-    place = picture[top : top + rows, left : left + columns, :3]
-    alpha = pixels[:, :, 3:].astype(np.uint16)
-    place[:] = (pixels[:, :, :3] * alpha + place * (255 - alpha) + 127) // 255
+    lay_over(picture[top : top + rows, left : left + columns], pixels)
     return picture

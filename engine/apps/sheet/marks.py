@@ -6,12 +6,12 @@ In: a canvas over the sheet, rectangles, lengths. Out: the same pixels, drawn on
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Callable
 
 import numpy as np
 
-from ...rendering.canvas import Canvas
+from ...rendering.canvas import Canvas, lay_over
+from ...rendering.fonts.fitting import most_kept
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import AXIS_COLORS
 from ...stage.overlays.theme import DARK, Rgba, Theme
@@ -45,7 +45,7 @@ def short(text: str, most: int, width: Callable[[str], int]) -> str:
         head = (kept * 3 + 4) // 5
         return f"{text[:head]}…{text[len(text) - kept + head :]}"
 
-    kept = bisect_right(range(len(text)), most, key=lambda kept: width(shortened(kept))) - 1
+    kept = most_kept(shortened, len(text), most, width)
     return shortened(kept) if kept >= 0 else ""
 
 
@@ -120,9 +120,7 @@ def _text_upward(canvas: Canvas, x: float, y: float, text: str, color: Rgba, sca
     left, top = round(x), round(y)
     window = canvas.pixels[max(top, 0) : top + width, max(left, 0) : left + height]
     ink = ink[max(-top, 0) :, max(-left, 0) :][: window.shape[0], : window.shape[1]]
-    alpha = ink[..., 3:].astype(np.uint16)
-    mixed = alpha * ink[..., :3] + (255 - alpha) * window[..., :3]
-    window[..., :3] = (mixed + 127) // 255
+    lay_over(window, ink)
 
 
 def draw_triad(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...rendering.fonts.fitting import most_kept
 from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import MARGIN, PADDING, place
@@ -184,9 +185,10 @@ def fitted(row: Row, width: int, font: Font) -> Row:
     """Return a row that fits: the text cut at its end, the detail at its front."""
     if not row.detail:
         return Row(font.fitted(row.text, width))
-    gap = font.width(GAP)
-    detail = row.detail
+    gap, detail = font.width(GAP), row.detail
     most = max(width - font.width(row.text) - gap, width // 3)
-    while font.width(detail) > most and detail.strip("…"):
-        detail = "…" + detail.lstrip("…")[1:]
+    if font.width(detail) > most:
+        count = len(detail)
+        kept = most_kept(lambda end: "…" + row.detail[count - end :], count, most, font.width)
+        detail = "…" + detail[count - max(kept, 0) :]
     return Row(font.fitted(row.text, max(width - font.width(detail) - gap, 0)), detail)

@@ -7,7 +7,6 @@ Out: pixels of a canvas, by `Canvas.text`; widths in pixels. All is integer arit
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from functools import cache
 from threading import Lock
 from typing import Literal
@@ -18,6 +17,7 @@ from ..._native import canvas as native
 from ...base.numbers import real, shown
 from ...base.validation import FixedNames, choose, whole_number
 from ...errors import InvalidArgumentError
+from .fitting import most_kept
 from .truetype import TrueType
 
 Face = Literal["sans", "mono"]
@@ -104,8 +104,7 @@ class Font(FixedNames):
         most = _room(width)
         if self.width(string) <= most:
             return string
-        ends = range(len(string))
-        kept = bisect_right(ends, most, key=lambda end: self.width(string[:end] + _ELLIPSIS)) - 1
+        kept = most_kept(lambda end: string[:end] + _ELLIPSIS, len(string), most, self.width)
         return string[:kept].rstrip() + _ELLIPSIS if kept > 0 else ""
 
     def wrapped(self, string: str, width: int) -> list[str]:
@@ -124,18 +123,15 @@ class Font(FixedNames):
 
     def _draw(self, surface: native.Surface, x: float, y: float, string: str, color: bytes) -> None:
         """Draw a text on a surface, with the top left corner of its first line at (x, y)."""
-        string = string.expandtabs(_TAB_COLUMNS)
+        string = checked_text(string).expandtabs(_TAB_COLUMNS)
         with self._lock:
             self._make(string)
             numbers = np.array([self._numbers[character] for character in string], np.int32)
             surface.glyphs(x, y, numbers, self._glyphs, color)
 
-    def _most(self, line: str, width: int) -> int:
+    def _most(self, line: str, most: int) -> int:
         """Return how many characters of a line fit, at least one."""
-        most = 1
-        while most < len(line) and self.width(line[: most + 1]) <= width:
-            most += 1
-        return most
+        return max(most_kept(lambda kept: line[:kept], len(line), most, self.width), 1)
 
     def _make(self, string: str) -> None:
         """Make the glyphs of a text that are not there yet; the caller holds the lock."""

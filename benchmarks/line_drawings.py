@@ -23,26 +23,15 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "tests"))
 from drawings import occt_parts as occt
 from OCP.HLRBRep import HLRBRep_PolyAlgo, HLRBRep_PolyHLRToShape
 
-#: Millimetres: the frame, which holds every part, and the tessellation's deviation.
-WIDTH, DEFLECTION = 200.0, 0.05
+#: Of the tessellation, in millimetres.
+DEFLECTION = 0.05
 #: The columns of times.
 NAMES = "update_ms", "extract_ms", "first_ms", "view_ms"
 
 
-def camera_of(view):
-    toward, across = (np.array(way, float) for way in occt.VIEWS[view])
-    toward /= np.linalg.norm(toward)
-    across -= toward * (across @ toward)
-    across /= np.linalg.norm(across)
-    pose = np.eye(4)
-    pose[:3, :3] = np.stack([across, np.cross(toward, across), toward], axis=1)
-    pose[:3, 3] = toward * 500.0
-    return e3d.OrthographicCamera(WIDTH / 2, xmag=WIDTH / 2, znear=1.0, zfar=1000.0), pose
-
-
 def draw(thing, view):
     """Return the seconds that a drawing takes, with hidden lines and without intersections."""
-    camera = camera_of(view)
+    camera = occt.camera(view)
     start = time.process_time()
     e3d.drawings.line_drawing(
         thing, camera, size=(1000, 1000), scale=1.0, intersections=False, threads=1

@@ -33,7 +33,11 @@ from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Compound
 
+import engine3d as e3d
+
 Z = (0, 0, 1)
+#: Of a frame that holds every part, in millimetres.
+WIDTH = 200.0
 
 
 def box(x, y, z, at=(0, 0, 0)):
@@ -194,6 +198,18 @@ def tessellate(shape, deflection=0.1):
 def projector(view):
     toward, across = VIEWS[view]
     return HLRAlgo_Projector(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(*toward), gp_Dir(*across)))
+
+
+def camera(view):
+    """Return a camera and its pose that see what `projector` does; a millimetre is one on paper."""
+    toward, across = (np.array(way, float) for way in VIEWS[view])
+    toward /= np.linalg.norm(toward)
+    across -= toward * (across @ toward)
+    across /= np.linalg.norm(across)
+    pose = np.eye(4)
+    pose[:3, :3] = np.stack([across, np.cross(toward, across), toward], axis=1)
+    pose[:3, 3] = toward * 500.0
+    return e3d.OrthographicCamera(WIDTH / 2, xmag=WIDTH / 2, znear=1.0, zfar=1000.0), pose
 
 
 def poly_lines(shape, view):

@@ -12,7 +12,6 @@ from drawings import occt_parts as occt
 
 #: Lines nearer to each other than this, in millimetres, are one stroke for both.
 NEAR = 0.1
-WIDTH = 200.0
 #: Whose lines Open CASCADE finds by interpolation within triangles, hidden ones above all.
 ROUND = ("shaft", "pipe", "ball")
 
@@ -30,16 +29,8 @@ def length(shown, hidden):
 
 
 def own_lines(mesh, view):
-    toward, across = (np.array(way, float) for way in occt.VIEWS[view])
-    toward /= np.linalg.norm(toward)
-    across -= toward * (across @ toward)
-    across /= np.linalg.norm(across)
-    pose = np.eye(4)
-    pose[:3, :3] = np.stack([across, np.cross(toward, across), toward], axis=1)
-    pose[:3, 3] = toward * 500
-    camera = e3d.OrthographicCamera(WIDTH / 2, xmag=WIDTH / 2, znear=1.0, zfar=1000.0)
     drawing = e3d.drawings.line_drawing(
-        mesh, (camera, pose), size=(1000, 1000), scale=1.0, intersections=False, threads=1
+        mesh, occt.camera(view), size=(1000, 1000), scale=1.0, intersections=False, threads=1
     )
     return drawing.pieces.of(hidden=False).ends, drawing.pieces.of(hidden=True).ends
 

@@ -16,7 +16,7 @@ enum { KINDS = 128 };
 typedef struct drawing {
     const e3d_view *view;
     int8_t *facing;    /* (faces,) of the edges */
-    uint8_t *needless; /* (faces,): as of e3d_hiders */
+    uint8_t *needless; /* (faces,): as of e3d_hiders; NULL: none */
     e3d_array lines; /* of drw_line */
     double *ends;    /* (lines, 2, 3) */
     uint8_t *behind; /* (lines,): as of e3d_lines */
@@ -94,16 +94,20 @@ static e3d_status place(drawing *job, const e3d_surface *hiders)
 }
 
 /* Seen from outside, a body that encloses a volume hides nothing with its backs that its fronts do not hide. */
-static void find_needless(drawing *job, const e3d_edges *edges)
+static e3d_status find_needless(drawing *job, const e3d_edges *edges)
 {
+    job->needless = malloc(edges->of.face_count + 1);
+    if (!job->needless)
+        return E3D_OUT_OF_MEMORY;
     for (size_t face = 0; face < edges->of.face_count; face++)
         job->needless[face] = drw_is_back(edges, job->facing, (int32_t)face);
+    return E3D_OK;
 }
 
 static e3d_status hide(drawing *job, const e3d_surface *by, int threads)
 {
     const double *eye = job->view->eye;
-    e3d_hiders hiders = {by->places, job->corners, by->faces, by->face_count, {eye[0], eye[1], eye[2], eye[3]}, job->view->thickness, REACH * job->nothing, job->view->is_outside ? job->needless : NULL};
+    e3d_hiders hiders = {by->places, job->corners, by->faces, by->face_count, {eye[0], eye[1], eye[2], eye[3]}, job->view->thickness, REACH * job->nothing, job->needless};
     e3d_lines lines = {job->ends, job->paper, job->lines.count, job->nothing, job->behind};
     return e3d_hide_lines(&hiders, &lines, threads, &job->pieces, &job->piece_count);
 }
@@ -167,11 +171,11 @@ static e3d_status draw_once(drawing *job, int threads, e3d_stroke **strokes, siz
 static e3d_status look(drawing *job, const e3d_edges *edges, const e3d_other_lines *others)
 {
     job->facing = malloc(edges->of.face_count + 1);
-    job->needless = malloc(edges->of.face_count + 1);
-    if (!job->facing || !job->needless)
+    if (!job->facing)
         return E3D_OUT_OF_MEMORY;
     drw_find_facing(edges, job->view->eye, job->facing);
-    find_needless(job, edges);
+    if (job->view->is_outside && find_needless(job, edges) != E3D_OK)
+        return E3D_OUT_OF_MEMORY;
     return drw_find_lines(edges, job->facing, others, job->view, &job->lines);
 }
 

@@ -17,9 +17,9 @@ from ..._native import loaders
 from ...base import linalg
 from .line_kinds import BORDER, CREASE
 
-#: Triangles lower than this share of the largest coordinate have no direction of their own:
-#: coordinates are rounded to 24 bits.
-FLAT = 2.0**-21
+#: What is within this share of the largest coordinate from a plane lies on it, and triangles that
+#: are no higher have no direction of their own.
+_THICKNESS = 2.0**-21
 #: Cosine of the angle between normals that count as one.
 _ONE_NORMAL = 0.9999
 #: So often a flat triangle's neighbour is looked for behind another flat one.
@@ -68,8 +68,7 @@ def _open_what_crosses_itself(
     enclosing: NDArray[np.int8], positions: NDArray[np.float64], faces: NDArray[np.int32]
 ) -> None:
     """Let bodies that run through themselves enclose nothing: parts of them may be inside out."""
-    thickness = FLAT * float(np.abs(positions).max())
-    pairs = native.cross_surfaces(positions, faces, None, thickness, 1)["faces"]
+    pairs = native.cross_surfaces(positions, faces, None, thickness_of(positions), 1)["faces"]
     bodies = native.find_bodies(faces, len(positions))
     first, second = bodies[pairs].T
     enclosing[np.isin(bodies, first[first == second])] = 0
@@ -136,12 +135,16 @@ def mesh_edges(arrays: dict[str, Any], crease_angle: float) -> MeshEdges:
     )
 
 
+def thickness_of(positions: NDArray[np.float64]) -> float:
+    """Return the distance within which points (P, 3) count as one: coordinates have 24 bits."""
+    return _THICKNESS * float(np.abs(positions).max(initial=0.0))
+
+
 def face_normals(
     positions: NDArray[np.float64], faces: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return the unit normals of triangles, (F, 3), and which are too flat to have one."""
-    limit = FLAT * float(np.abs(positions).max(initial=0.0))
-    normals = native.find_normals(positions, faces, limit)
+    normals = native.find_normals(positions, faces, thickness_of(positions))
     return normals, ~normals.any(axis=1)
 
 

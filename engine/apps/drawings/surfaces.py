@@ -22,12 +22,8 @@ from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...model.scene.shown import placing_pose, shown_object
 from .line_kinds import INTERSECTION, LINE
-from .mesh_edges import MeshEdges, face_normals, mesh_edges
+from .mesh_edges import MeshEdges, face_normals, mesh_edges, thickness_of
 from .model_lines import Lines, lines_of
-
-#: What is within this share of the largest coordinate from a plane lies on it. Coordinates are
-#: rounded to 24 bits.
-_THICKNESS = 2.0**-21
 
 
 class Surfaces:
@@ -69,7 +65,7 @@ class Surfaces:
         self.bounds = np.zeros((2, 3))
         if len(self.places):
             self.bounds = np.stack([self.places.min(axis=0), self.places.max(axis=0)])
-        self.thickness = _THICKNESS * float(np.abs(self.bounds).max())
+        self.thickness = thickness_of(self.bounds)
         self._crossings: Lines | None = None
 
     def intersections(self, threads: int) -> Lines:

@@ -12,6 +12,8 @@ from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t
 from libc.stdlib cimport calloc, free
 from libc.string cimport memcpy
 
+import numpy as np
+
 from ..errors import InvalidArgumentError, OutOfMemoryError
 
 PIXEL_BYTES = sizeof(e3d_lens_pixel)
@@ -168,12 +170,16 @@ cdef class NativeLens:
         seen.instance_id = &instance_id[0] if self.total else &none
         seen.face_id = &face_id[0] if self.total else &none
         seen.depth = &depth[0] if self.total else &zero
-        out.source, out.object_id = self.integers(found, "source"), self.integers(found, "object_id")
-        out.instance_id, out.face_id = self.integers(found, "instance_id"), self.integers(found, "face_id")
-        out.depth, out.range = self.floats(found, "depth", 1), self.floats(found, "range", 1)
-        out.barycentric = self.floats(found, "barycentric", 3)
+        out.source = <int32_t *>self.address(found, "source", "int32")
+        out.object_id = <int32_t *>self.address(found, "object_id", "int32")
+        out.instance_id = <int32_t *>self.address(found, "instance_id", "int32")
+        out.face_id = <int32_t *>self.address(found, "face_id", "int32")
+        out.depth = <float *>self.address(found, "depth", "float32")
+        out.range = <float *>self.address(found, "range", "float32")
+        out.barycentric = <float *>self.address(found, "barycentric", "float32", 3)
         out.is_along_axis = is_along_axis
-        out.distance, out.exact = self.doubles(found, "distance"), self.bytes(found, "exact")
+        out.distance = <double *>self.address(found, "distance", "float64")
+        out.exact = <uint8_t *>self.address(found, "exact", "uint8")
         if (out.barycentric == NULL) != (out.exact == NULL):
             raise InvalidArgumentError("barycentric and exact go together")
         return e3d_lens_find(
@@ -211,37 +217,19 @@ cdef class NativeLens:
         with nogil:
             e3d_lens_take(&all, threads if threads > 0 else e3d_thread_count())
 
-    cdef int32_t *integers(self, dict found, str name) except? NULL:
-        cdef int32_t[:, ::1] array
-        if found.get(name) is None:
+    cdef void *address(self, dict found, str name, str dtype, int channels=1) except? NULL:
+        """Return where a picture of numbers of a type begins; NULL for one that is not wanted."""
+        cdef uint8_t[::1] memory
+        array = found.get(name)
+        if array is None:
             return NULL
-        array = found[name]
-        self.check_picture(array.shape[0], array.shape[1], 1, 1)
-        return &array[0, 0]
-
-    cdef float *floats(self, dict found, str name, int channels) except? NULL:
-        cdef float[:, :, ::1] array
-        if found.get(name) is None:
-            return NULL
-        array = found[name].reshape(*found[name].shape[:2], -1)
-        self.check_picture(array.shape[0], array.shape[1], array.shape[2], channels)
-        return &array[0, 0, 0]
-
-    cdef double *doubles(self, dict found, str name) except? NULL:
-        cdef double[:, ::1] array
-        if found.get(name) is None:
-            return NULL
-        array = found[name]
-        self.check_picture(array.shape[0], array.shape[1], 1, 1)
-        return &array[0, 0]
-
-    cdef uint8_t *bytes(self, dict found, str name) except? NULL:
-        cdef uint8_t[:, ::1] array
-        if found.get(name) is None:
-            return NULL
-        array = found[name]
-        self.check_picture(array.shape[0], array.shape[1], 1, 1)
-        return &array[0, 0]
+        if array.dtype != dtype:
+            raise InvalidArgumentError(f"{name} is {dtype}, not {array.dtype}")
+        self.check_picture(array.shape[0], array.shape[1], array[0, 0].size, channels)
+        if not array.flags.c_contiguous:
+            raise InvalidArgumentError(f"{name} must be contiguous")
+        memory = array.reshape(-1).view(np.uint8)
+        return &memory[0]
 
     cdef int check_picture(
         self, Py_ssize_t height, Py_ssize_t width, Py_ssize_t channels, Py_ssize_t wanted

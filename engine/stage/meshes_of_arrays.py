@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..base.foreign_arrays import is_foreign_array
 from ..base.numbers import as_array
 from ..errors import InvalidArgumentError, warn
+from ..io.scenes.voxel_faces import outer_faces
 from ..model.geometry.mesh import Mesh
 from ..model.geometry.values import Values
 from ..model.primitives.faces import grid_quads, split_quads
@@ -22,15 +23,6 @@ _SHOWN = (
     "(N, 3) are points, (N, 6) points with colours, (N, 2, 3) segments, (N, 3, 3) triangles, "
     "(H, W) heights, (X, Y, Z) of bool voxels, a pair of (V, 3) and (F, 3) of integers a mesh"
 )
-#: Corners of a voxel's sides, counter-clockwise, by the axis that they face and its sign.
-_SIDES = {
-    (0, 1): [(1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1)],
-    (0, -1): [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0)],
-    (1, 1): [(0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0)],
-    (1, -1): [(0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1)],
-    (2, 1): [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)],
-    (2, -1): [(0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)],
-}
 
 
 def mesh_of_arrays(thing: Any) -> Mesh | None:
@@ -106,11 +98,6 @@ def _of_heights(heights: NDArray[Any]) -> Mesh:
 
 def _of_voxels(voxels: NDArray[np.bool_]) -> Mesh:
     """Return the sides of unit cubes that no other cube touches."""
-    around = np.pad(voxels, 1)
-    found = []
-    for (axis, sign), corners in _SIDES.items():
-        free = voxels & ~np.roll(around, -sign, axis)[1:-1, 1:-1, 1:-1]
-        found.append(np.argwhere(free)[:, None] + np.array(corners))
-    places = np.concatenate(found).reshape(-1, 3)
-    faces, edges = split_quads(np.arange(len(places), dtype=np.int32).reshape(-1, 4))
+    places, faces, _ = outer_faces(np.argwhere(voxels))
+    edges = np.tile([True, True, False], (len(faces), 1))
     return Mesh(places, faces, edge_visible=edges, name="voxels")

@@ -24,6 +24,7 @@ typedef struct lens_job {
 
 void e3d_lens_codes_fill(e3d_lens_codes *codes, int is_srgb)
 {
+    e3d_fpenv saved = e3d_fpenv_enter();
     for (int c = 0; c < 256; c++)
         codes->light[c] = is_srgb ? SRGB_TO_LINEAR16[c] : (uint16_t)(c * 257);
     for (int v = 0, c = 0; v <= E3D_LENS_FULL; v++) {
@@ -34,6 +35,7 @@ void e3d_lens_codes_fill(e3d_lens_codes *codes, int is_srgb)
     }
     for (int c = 0; c < 256; c++) /* a byte that is not mixed with others stays as it is */
         codes->code[codes->light[c]] = (uint8_t)c;
+    e3d_fpenv_leave(saved);
 }
 
 static void decode_band(void *argument, int band)

@@ -573,7 +573,9 @@ int64_t e3d_lens_find(const e3d_lens_scene *scene, const e3d_lens_face *faces, c
     memcpy(j.world, world_from_view, sizeof j.world);
     for (int k = 0; k < 3; k++)
         j.eye[k] = world_from_view[4 * k + 3];
+    e3d_fpenv saved = e3d_fpenv_enter();
     j.is_rigid = is_rigid(world_from_view);
+    e3d_fpenv_leave(saved);
     j.needs_place = found->depth || found->range || found->distance || found->barycentric;
     e3d_pool_share(threads, bands, find_band, &j);
     for (int b = 0; b < bands; b++)

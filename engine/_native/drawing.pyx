@@ -51,14 +51,16 @@ cdef int check_indices(const int32_t[:, ::1] faces, size_t vertices) except -1:
 
 cdef object taken(void **data, size_t count, object dtype):
     """An array with a copy of what C allocated, which is freed."""
-    array = np.empty(count, dtype)
     cdef uint8_t[::1] view
-    if count:
-        view = array.view(np.uint8)
-        memcpy(&view[0], data[0], view.shape[0])
-    free(data[0])
-    data[0] = NULL
-    return array
+    try:
+        array = np.empty(count, dtype)
+        if count:
+            view = array.view(np.uint8)
+            memcpy(&view[0], data[0], view.shape[0])
+        return array
+    finally:
+        free(data[0])
+        data[0] = NULL
 
 
 cdef object checked_sides(object sides, const int32_t[:, ::1] faces):

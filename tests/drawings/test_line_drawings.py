@@ -175,6 +175,19 @@ def test_nothing_is_a_warning():
         draw(scene)
 
 
+def test_instances_without_a_place_leave_the_others():
+    poses = np.stack([np.eye(4), np.eye(4)])
+    poses[1, 0, 3] = np.nan
+    scene = e3d.Scene()
+    scene.add(e3d.InstancedMesh(e3d.box(), poses), name="crowd")
+    with pytest.warns(e3d.errors.Engine3DWarning, match="crowd: 1 of its poses"):
+        drawing = draw(scene, ASLANT)
+    alone = draw(e3d.box(), ASLANT)
+    assert drawing.pieces.of(hidden=False).length == pytest.approx(
+        alone.pieces.of(hidden=False).length
+    )
+
+
 def test_threads_and_repetition_change_nothing():
     scene = e3d.Scene()
     scene.add(e3d.torus(2.0, 0.7))

@@ -108,7 +108,12 @@ def surfaces_of(scene: Scene, crease_angle: float) -> tuple[Surfaces, list[str]]
         if mesh.points is not None and len(mesh.points):
             omitted.append(f"{node.name or 'a node'}: a line drawing has no points")
         arrays = arrays_of(mesh)
-        for number, pose in enumerate(_poses(node, thing)):
+        poses = list(enumerate(_poses(node, thing)))
+        finite = [(number, pose) for number, pose in poses if np.isfinite(pose).all()]
+        if len(finite) < len(poses):
+            lost = len(poses) - len(finite)
+            omitted.append(f"{node.name or 'a node'}: {lost} of its poses are not finite")
+        for number, pose in finite:
             meshes.append((mesh, arrays, pose))
             names.append(node.name if mesh is thing else f"{node.name} {number}")
     if not meshes:

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...model.measuring.cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
-from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from .layout import Rectangle
 
 #: Colours of cut material and its hatching.

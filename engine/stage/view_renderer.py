@@ -296,8 +296,12 @@ class ViewRenderer:
 
         That is closer than `frame`, which leaves room for the scene to turn.
         """
+        corners = self.staging.box.corners
         if self.settings.axes_grid:
-            view.frame_beside(self.staging.box.corners, self.aspect, self._taken())
+            view.frame_beside(corners, self.aspect, self._taken())
+            view.distance *= _LABEL_ROOM
+        elif self.settings.dimensions:
+            view.fit(support_of_points(corners), corners.mean(axis=0), self.aspect, self._taken())
             view.distance *= _LABEL_ROOM
         elif self._support is None:
             self.frame(view)

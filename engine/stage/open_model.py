@@ -20,10 +20,10 @@ from ..model.geometry.mesh import Mesh
 from ..model.geometry.twins import take_over
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
-from ..model.scene.scene import Scene
 from .appearance import BARE
 from .coloring import Coloring
 from .overlays.numbers import Numbers
+from .painting import dress
 from .scenes_of_things import is_lit
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
@@ -189,11 +189,19 @@ def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -
             material.color = color
 
 
-def dress_scene(scene: Scene, color: ColorLike) -> None:
-    """Give a colour to materials without texture or emission; warn if there are none."""
-    things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
-    painted = False
+def dress_scene(viewed: ViewedScene, color: ColorLike) -> None:
+    """Give a scene a colour: a model all over; others where they have no texture and do not glow.
+
+    It warns if nothing gets the colour.
+    """
+    nodes = viewed.scene.nodes
+    things = [node.object for node in nodes if isinstance(node.object, DRAWABLE)]
+    painted = viewed.format is not None
     for mesh in map(mesh_of, things):
+        if viewed.format is not None:
+            dress(mesh, Material(color=color))
+            mesh.colors = None
+            continue
         plain = [material for material in mesh.materials if _is_plain(material)]
         for material in plain:
             material.color = color
@@ -206,7 +214,8 @@ def dress_scene(scene: Scene, color: ColorLike) -> None:
 
 def _is_plain(material: Material) -> bool:
     """Return whether a material shows only a plain colour."""
-    return not textures_of(material) and not any(material.emissive)
+    glows = material.unlit or any(material.emissive)
+    return not textures_of(material) and not glows
 
 
 def document_lines(document: Document) -> list[str]:

@@ -26,6 +26,7 @@ from .overlays.numbers import Numbers
 from .painting import dress
 from .scenes_of_things import is_lit
 from .viewed_scene import ViewedScene
+from .views.flat_sides import has_no_front
 from .visibility import DRAWABLE, mesh_of
 
 
@@ -132,9 +133,11 @@ def read_model(
     document = load_document(path, values=numbers is not None, **options)
     is_named = not hasattr(path, "read")
     name = os.fsdecode(cast("str | os.PathLike[str]", path)) if is_named else None
+    is_plain = _states_nothing(document)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     viewed = view_document(document, name, variant)
+    viewed.may_turn = is_plain
     if numbers is not None:
         color_by(viewed, document, numbers)
         # Tone mapping would change the colours shown in the bar.
@@ -174,6 +177,13 @@ def _no_image(path: str) -> bool:
 def has_materials(mesh: Mesh) -> bool:
     """Return whether any material of a mesh defines its appearance; a name alone does not."""
     return any(map(says_something, mesh.materials))
+
+
+def _states_nothing(document: Document) -> bool:
+    """Return whether no mesh of a model that stands still states a material or colours."""
+    if document.is_scene:
+        return False
+    return all(map(has_no_front, (entry.mesh for entry in document.objects)))
 
 
 def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -> None:

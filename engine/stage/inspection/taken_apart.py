@@ -95,6 +95,7 @@ class TakenApart:
         self.viewed = replace(
             whole,
             scene=self._scene,
+            may_turn=False,  # cut faces are to be seen
             update=None,
             plays=False,
             player=None,

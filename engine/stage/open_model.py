@@ -20,12 +20,13 @@ from ..model.geometry.mesh import Mesh
 from ..model.geometry.twins import take_over
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
-from ..model.scene.scene import Scene
 from .appearance import BARE
 from .coloring import Coloring
 from .overlays.numbers import Numbers
+from .painting import dress
 from .scenes_of_things import is_lit
 from .viewed_scene import ViewedScene
+from .views.flat_sides import has_no_front
 from .visibility import DRAWABLE, mesh_of
 
 
@@ -132,9 +133,11 @@ def read_model(
     document = load_document(path, values=numbers is not None, **options)
     is_named = not hasattr(path, "read")
     name = os.fsdecode(cast("str | os.PathLike[str]", path)) if is_named else None
+    is_plain = _states_nothing(document)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     viewed = view_document(document, name, variant)
+    viewed.may_turn = is_plain
     if numbers is not None:
         color_by(viewed, document, numbers)
         # Tone mapping would change the colours shown in the bar.
@@ -176,6 +179,13 @@ def has_materials(mesh: Mesh) -> bool:
     return any(map(says_something, mesh.materials))
 
 
+def _states_nothing(document: Document) -> bool:
+    """Return whether no mesh of a model that stands still states a material or colours."""
+    if document.is_scene:
+        return False
+    return all(map(has_no_front, (entry.mesh for entry in document.objects)))
+
+
 def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -> None:
     """Give the meshes' materials the image and the colour; warn of an image that does not show."""
     if image is not None and not meshes:
@@ -189,11 +199,19 @@ def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -
             material.color = color
 
 
-def dress_scene(scene: Scene, color: ColorLike) -> None:
-    """Give a colour to materials without texture or emission; warn if there are none."""
-    things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
-    painted = False
+def dress_scene(viewed: ViewedScene, color: ColorLike) -> None:
+    """Give a scene a colour: a model all over; others where they have no texture and do not glow.
+
+    It warns if nothing gets the colour.
+    """
+    nodes = viewed.scene.nodes
+    things = [node.object for node in nodes if isinstance(node.object, DRAWABLE)]
+    painted = viewed.format is not None
     for mesh in map(mesh_of, things):
+        if viewed.format is not None:
+            dress(mesh, Material(color=color))
+            mesh.colors = None
+            continue
         plain = [material for material in mesh.materials if _is_plain(material)]
         for material in plain:
             material.color = color
@@ -206,7 +224,8 @@ def dress_scene(scene: Scene, color: ColorLike) -> None:
 
 def _is_plain(material: Material) -> bool:
     """Return whether a material shows only a plain colour."""
-    return not textures_of(material) and not any(material.emissive)
+    glows = material.unlit or any(material.emissive)
+    return not textures_of(material) and not glows
 
 
 def document_lines(document: Document) -> list[str]:

@@ -6,7 +6,7 @@ Plain data: the command line fills it in, `ViewRenderer` applies it to each scen
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..choices import LightShadow
 from ..model.materials.material import Material
@@ -16,6 +16,9 @@ from .chosen_surroundings import Surroundings
 from .filtering import Filtering
 from .look import Look, check_look
 from .overlays.theme import DARK, Theme
+
+if TYPE_CHECKING:
+    from .overlays.measurements import Measurement
 
 
 @dataclass
@@ -63,8 +66,10 @@ class Settings:
         Names of walkable materials; None is all.
     slope : float or None
         The steepest walkable slope, in radians.
-    grid, axes, metadata, axes_grid, bar : bool
+    grid, axes, metadata, axes_grid, bar, dimensions : bool
         What to draw besides the scene.
+    measured : tuple of Measurement
+        What to measure in pictures; points are in the file's coordinates.
     ui_scale : int or None
         Factor on the size of texts; None chooses by the screen and the picture.
     theme : Theme
@@ -99,6 +104,8 @@ class Settings:
     metadata: bool = False
     axes_grid: bool = False
     bar: bool = False
+    dimensions: bool = False
+    measured: tuple[Measurement, ...] = ()
     ui_scale: int | None = None
     theme: Theme = DARK
     keeps_theme: bool = False

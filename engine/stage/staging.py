@@ -75,6 +75,8 @@ class Staging:
     up : str
     alone : (H, W, 4) uint8 or None
         A small picture of the model on a transparent background, if one was drawn.
+    azimuths : dict of str to float
+        Those of first views that were looked for, by the up direction.
     """
 
     def __init__(
@@ -89,6 +91,7 @@ class Staging:
         shown_as = None if coloring is None else coloring.colored_thing
         self.visibility = Visibility(scene, shown_as, settings.material)
         self.alone: np.ndarray | None = None
+        self.azimuths: dict[str, float] = {}
         scene.read_textures(self._reading())
         self.show_textures(settings.textures)
         if settings.light_clamp is not None:

@@ -45,6 +45,8 @@ from .stage_settings import Settings
 from .staging import Staging
 from .viewed_scene import ViewedScene
 from .views.camera_view import AnyView, CameraView
+from .views.flat_sides import SIZE as SMALL
+from .views.flat_sides import choose_azimuth
 from .views.free_region import NOTHING, Taken
 from .views.viewpoint import UP_DIRECTIONS, WALKING_YFOV, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
@@ -284,7 +286,23 @@ class ViewRenderer:
             walks = self.viewed.walker is not None
             yfov = WALKING_YFOV if walks else lens_for(self.aspect)
         viewed, up = self.viewed, UP_DIRECTIONS[self.staging.up]
-        return Viewpoint(np.zeros(3), 1.0, viewed.azimuth, viewed.elevation, up, yfov)
+        azimuth = self.staging.azimuths.get(self.staging.up, viewed.azimuth)
+        if viewed.may_turn and self.staging.up not in self.staging.azimuths:
+            azimuth = choose_azimuth(azimuth, self._normals_from)
+            self.staging.azimuths[self.staging.up] = azimuth
+        return Viewpoint(np.zeros(3), 1.0, azimuth, viewed.elevation, up, yfov)
+
+    def _normals_from(self, azimuth: float) -> np.ndarray:
+        """Return the normals of the pixels, (N, 3), of a small picture from an azimuth."""
+        if self._support is None:
+            return np.zeros((0, 3), np.float32)
+        aspect, up = SMALL[0] / SMALL[1], UP_DIRECTIONS[self.staging.up]
+        view = Viewpoint(np.zeros(3), 1.0, azimuth, self.viewed.elevation, up, lens_for(aspect))
+        view.fit(self._support, np.array(self.bounds.center), aspect)
+        frame = self._small_renderer(SMALL).render(
+            self.staging.scene, (self.camera(view), view.pose()), outputs=("object_id", "normal")
+        )
+        return frame.normal[self.staging.scene.own_pixels(frame.object_id)]
 
     def frame(self, view: Viewpoint) -> None:
         """Move a view along its direction until the whole scene fits."""
@@ -296,8 +314,12 @@ class ViewRenderer:
 
         That is closer than `frame`, which leaves room for the scene to turn.
         """
+        corners = self.staging.box.corners
         if self.settings.axes_grid:
-            view.frame_beside(self.staging.box.corners, self.aspect, self._taken())
+            view.frame_beside(corners, self.aspect, self._taken())
+            view.distance *= _LABEL_ROOM
+        elif self.settings.dimensions:
+            view.fit(support_of_points(corners), corners.mean(axis=0), self.aspect, self._taken())
             view.distance *= _LABEL_ROOM
         elif self._support is None:
             self.frame(view)

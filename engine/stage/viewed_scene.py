@@ -46,6 +46,8 @@ class ViewedScene:
         A key of `UP_DIRECTIONS`.
     azimuth, elevation : float
         The first view, in radians.
+    may_turn : bool
+        Whether the first view may be from another quarter, if it would show one flat side alone.
     update : callable or None
         Called before a frame with the time in seconds, to move the scene's nodes. Without it,
         playing turns the camera around the scene.
@@ -108,6 +110,7 @@ class ViewedScene:
     up: str = "+Y"
     azimuth: float = DEFAULT_AZIMUTH
     elevation: float = DEFAULT_ELEVATION
+    may_turn: bool = False
     update: Callable[[float], None] | None = None
     period: float = TURN_SECONDS
     plays: bool = False

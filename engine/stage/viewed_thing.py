@@ -9,7 +9,9 @@ from typing import Any
 from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
 from ..io.scenes.other_libraries import CAD_LIBRARIES, library_of
+from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material
+from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
 from .appearance import BARE
 from .coloring import show_numbers
@@ -21,6 +23,7 @@ from .played_clips import play_clips
 from .scenes_of_things import is_lit, scene_of
 from .stage_settings import Settings
 from .viewed_scene import ViewedScene
+from .views.flat_sides import has_no_front
 from .views.viewpoint import UP_DIRECTIONS
 
 
@@ -48,10 +51,13 @@ def viewed_of(thing: Any) -> ViewedScene | None:
     is_scene, is_dressed = isinstance(thing, Scene), not is_lit(scene)
     appearance = dict(BARE) if is_scene and not is_dressed else {}
     is_cad = library_of(thing) in CAD_LIBRARIES
+    meshes = [node.object for node in scene.nodes if isinstance(node.object, Mesh)]
+    may_turn = not isinstance(thing, Scene | Node) and all(map(has_no_front, meshes))
     return ViewedScene(
         scene,
         title,
         up="+Z" if is_cad else "+Y",
+        may_turn=may_turn,
         themed=is_dressed,
         is_scene=is_scene,
         appearance=appearance,

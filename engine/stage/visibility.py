@@ -108,6 +108,15 @@ class Visibility:
         self._hidden_materials = _toggled(self._hidden_materials, self._materials, number, alone)
         self._apply()
 
+    def take_over(self, other: Visibility) -> None:
+        """Hide what another scene with the same parts hides."""
+        self._hidden_materials = set(other._hidden_materials)
+        if len(self._nodes) == len(other._nodes):
+            both = zip(self._nodes, other._nodes, strict=True)
+            self._hidden_nodes = {mine for mine, node in both if node in other._hidden_nodes}
+        if self._hidden_materials or self._hidden_nodes:
+            self._apply()
+
     def tell_whole_face(self, frame: Frame, x: int, y: int) -> None:
         """Map a pixel's face ID from the drawn part to the whole mesh."""
         face = int(frame.face_id[y, x])

@@ -129,6 +129,26 @@ def test_a_built_in_scene_is_painted_where_it_is_plain():
     assert all(color in before.values() for color in kept)
 
 
+@pytest.mark.parametrize("name", ["default", "textured", "asc"])
+def test_a_built_in_model_is_painted_all_over(name, recwarn):
+    scene = viewed_scene(parse(["run", "--scene", name, "--color", "red"])).scene
+    meshes = [node.object for node in scene.nodes if isinstance(node.object, e3d.Mesh)]
+    assert meshes and not recwarn.list
+    for mesh in meshes:
+        (material,) = mesh.materials
+        assert tuple(material.rgb) == (255, 0, 0) and material.texture is None
+        assert mesh.colors is None
+
+
+@pytest.mark.parametrize("name", ["shapes", "solar"])
+def test_what_glows_is_bright_without_light(name):
+    scene = viewed_scene(parse(["run", "--scene", name])).scene
+    meshes = [node.object for node in scene.nodes if isinstance(node.object, e3d.Mesh)]
+    glowing = [m for mesh in meshes for m in mesh.materials if m.unlit]
+    assert len(glowing) >= 3
+    assert all(max(material.rgb) > 0.9 for material in glowing)
+
+
 def test_edges_of_shapes_are_cut_into_parts():
     def counts(*options):
         args = parse(["run", "--scene", "shapes", *options])

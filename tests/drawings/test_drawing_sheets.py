@@ -7,8 +7,8 @@ import pytest
 
 import engine3d as e3d
 from engine3d.apps.drawings.cut_faces import cap_of
-from engine3d.apps.sheet.cutting import Plane, cut_nodes
 from engine3d.drawings import drawing_sheet
+from engine3d.model.measuring.cutting import Plane, cut_nodes
 
 
 def lines_of(sheet, name):

@@ -10,6 +10,7 @@ from sheet.conftest import SIZE, drawn, part, triangle
 
 import engine3d as e3d
 from engine3d.apps.sheet import marks
+from engine3d.stage.overlays.lengths import length_text
 
 OPTIONS = {"views": "front,iso,turned=20,30", "sections": "x=0.8", "size": SIZE}
 
@@ -184,7 +185,7 @@ def test_the_dimensions_are_written_where_the_drawing_ends(part_sheet):
     ],
 )
 def test_lengths_are_short(value, unit, text):
-    assert marks.length_text(value, unit) == text
+    assert length_text(value, unit) == text
 
 
 @pytest.mark.parametrize(

@@ -64,6 +64,19 @@ def test_one_walks_up_to_a_wall_and_no_further(scale, up):
     assert walker.position[axis] == pytest.approx(1.7 * metre, rel=0.01)
 
 
+def test_a_name_that_no_material_has_is_told():
+    viewed = room()
+    view = ViewRenderer(viewed, Settings({}), SIZE).view()
+    names = {m.name for node in viewed.scene.nodes for m in getattr(node.object, "materials", ())}
+    known = next(name for name in sorted(names) if len(name) > 3)
+    with pytest.warns(e3d.Engine3DWarning) as told:
+        find_ground(viewed.scene, viewed.bounds, view, walkable=(*names, "nosuch", known + "x"))
+    assert [str(one.message) for one in told] == [
+        "walkable: no material is called 'nosuch'",
+        f"walkable: no material is called {known + 'x'!r}: did you mean {known}?",
+    ]
+
+
 def test_only_some_materials_and_slopes_are_walked_on():
     def standing(**options):
         viewed = room()

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
+from ...model.measuring.cutting import Plane
 from ...model.scene.cameras import Camera
 from ...rendering.frame import Frame
 from ...rendering.support_functions import support_of_box, support_of_scene
 from ...stage.scene_bounds import sphere_of_box
 from ..sheet.caps import Caps, find_caps, paint_caps
-from ..sheet.cutting import Plane
 from ..sheet.layout import Padding, Rectangle
 from ..sheet.placing import cut_obliquely, find_extent, place_camera
 from ..sheet.views import parse_section

@@ -1,8 +1,7 @@
 """The cut faces of a section: triangles that hide what is behind them, and hatching.
 
 In: outlines in a plane across an axis, directed. Out: triangles and lines inside: where the winding
-number is not zero. The plane is swept: between two levels at which no outline has a vertex, the
-inside is a row of trapezoids.
+number is not zero.
 """
 
 from __future__ import annotations
@@ -12,10 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..sheet.cutting import Outline, Plane, gaps_of
-
-#: More crossings of levels with outlines take too much time and memory.
-MOST_CROSSINGS = 3_000_000
+from ...model.measuring.cutting import Outline, Plane, gaps_of
+from ...model.measuring.filling import MOST_CROSSINGS, across, fill, inner_stretches
 
 
 class Cap(NamedTuple):
@@ -58,7 +55,7 @@ def cap_of(outline: Outline, plane: Plane, spacing: float) -> Cap | None:
         return Cap(outline.node, outline.segments, *nothing)
     closed = np.concatenate([outline.segments, gaps])
     flat = closed[..., [(plane.axis + 1) % 3, (plane.axis + 2) % 3]]
-    triangles = _triangles(flat)
+    triangles = fill(flat)
     sign = -1.0 if outline.node % 2 else 1.0
     hatching = _hatching(flat, sign, spacing)
     if triangles is None or hatching is None:
@@ -75,58 +72,6 @@ def _in_space(flat: NDArray[np.float64], plane: Plane) -> NDArray[np.float64]:
         flat[..., 1],
     )
     return places
-
-
-def _inner(
-    segments: NDArray[np.float64], levels: NDArray[np.float64]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]] | None:
-    """Return stretches of level lines inside outlines: level, segments at their left and right.
-
-    Parameters
-    ----------
-    segments : (N, 2, 2) float64
-        Ends x, y.
-    levels : (L,) float64
-        Ascending heights y.
-    """
-    low, high = segments[..., 1].min(axis=1), segments[..., 1].max(axis=1)
-    first, last = (np.searchsorted(levels, ends) for ends in (low, high))
-    counts = last - first
-    if counts.sum() > MOST_CROSSINGS:
-        return None
-    number = np.repeat(np.arange(len(segments)), counts)
-    level = np.arange(len(number)) - np.repeat(np.cumsum(counts) - counts - first, counts)
-    order = np.lexsort([number, across(segments[number], levels[level]), level])
-    number, level = number[order], level[order]
-    turns = np.cumsum(np.where(segments[number, 1, 1] > segments[number, 0, 1], 1, -1))
-    inside = np.flatnonzero((turns[:-1] != 0) & (level[:-1] == level[1:]))
-    return level[inside], number[inside], number[inside + 1]
-
-
-def across(segments: NDArray[np.float64], levels: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return x where segments (N, 2, 2) are at heights (N,), within their own."""
-    a, b = segments[:, 0], segments[:, 1]
-    share = (levels - a[:, 1]) / (b[:, 1] - a[:, 1])
-    return a[:, 0] + (b[:, 0] - a[:, 0]) * np.clip(share, 0.0, 1.0)
-
-
-def _triangles(segments: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return triangles (T, 3, 2) that fill outlines."""
-    heights = np.unique(segments[..., 1])
-    if len(heights) < 2:
-        return np.zeros((0, 3, 2))
-    middles = (heights[1:] + heights[:-1]) * 0.5
-    found = _inner(segments, middles)
-    if found is None:
-        return None
-    level, left, right = found
-    corners = [
-        np.stack([across(segments[side], heights[level + up]), heights[level + up]], axis=1)
-        for up in (0, 1)
-        for side in (left, right)
-    ]
-    made = [np.stack([corners[k] for k in three], axis=1) for three in ((0, 1, 3), (0, 3, 2))]
-    return np.concatenate(made)
 
 
 def _hatching(
@@ -146,7 +91,7 @@ def _hatching(
     if not last - first < MOST_CROSSINGS:
         return None
     levels = np.arange(first, last + 1) * spacing
-    found = _inner(turned, levels)
+    found = inner_stretches(turned, levels)
     if found is None:
         return None
     level, left, right = found

@@ -11,14 +11,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...errors import InvalidArgumentError, warn
+from ...model.measuring.cutting import cut_nodes
 from ...model.scene.cameras import Camera
 from ...rendering.support_functions import support_of_scene
+from ...stage.overlays.lengths import length_text
 from ...stage.scene_bounds import sphere_of_box
 from ...stage.viewed_scene import ViewedScene
 from ...stage.views.viewpoint import UP_DIRECTIONS
-from ..sheet.cutting import cut_nodes
 from ..sheet.layout import Padding, Reach, Rectangle, lay_out
-from ..sheet.marks import length_text, short
+from ..sheet.marks import short
 from ..sheet.placing import (
     Extent,
     cut,

@@ -107,6 +107,6 @@ def _bulb(scene: Scene, color):
     """Add a point light with a glowing sphere; return the node that moves both."""
     node = scene.add(PointLight(color=color, intensity=LIGHT_INTENSITY))
     bulb = icosphere(BULB_RADIUS, 2)
-    bulb.materials = [Material(color=(0.0, 0.0, 0.0), emissive=color)]
+    bulb.materials = [Material(color=color, unlit=True)]  # it glows in every mode
     scene.add(bulb, parent=node)
     return node

@@ -89,7 +89,7 @@ def _sun() -> Mesh:
         waves = waves + linalg.sin(9.0 * linalg.dot(middles, direction) + 20.0 * direction[0])
     shade = np.clip((waves * 0.12 + 0.5) * GLOWS, 0, GLOWS - 1)
     glows = np.linspace(*GLOW, GLOWS).tolist()
-    ball.materials = [Material(color=(0, 0, 0), emissive=linear(glow)) for glow in glows]
+    ball.materials = [Material(color=linear(glow), unlit=True) for glow in glows]
     ball.material_ids = shade.astype(np.int32)
     return ball
 

@@ -11,13 +11,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...model.measuring.cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
-from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
+from ...stage.inspection.cut_faces import CUT, HATCH
 from .layout import Rectangle
 
-#: Colours of cut material and its hatching.
-_CUT, _HATCH = (232, 164, 124), (150, 78, 44)
 #: Pixels between lines of the hatching.
 _PITCH = 9
 
@@ -98,4 +97,4 @@ def paint_caps(color: np.ndarray, ids: np.ndarray) -> None:
     rows, columns = np.nonzero(ids >= 0)
     flipped = ids[rows, columns] % 2 == 1
     stripes = np.where(flipped, columns - rows, columns + rows) % _PITCH == 0
-    color[rows, columns, :3] = np.where(stripes[:, np.newaxis], _HATCH, _CUT)
+    color[rows, columns, :3] = np.where(stripes[:, np.newaxis], HATCH, CUT)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...rendering.canvas import Canvas, lay_over
 from ...rendering.fonts.fitting import most_kept
+from ...stage.overlays.lengths import exponent, length_text
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import AXIS_COLORS
 from ...stage.overlays.theme import DARK, Rgba, Theme
@@ -23,17 +24,8 @@ _ARROW = 7
 #: Reach of the strokes at the ends of dimensions, to either side.
 _TICK = 5
 _AXIS = 15
-_DIGITS = 4
 #: Height of a view's name in rows.
 _NAME = 24
-
-
-def length_text(value: float, unit: str | None) -> str:
-    """Return a length with four digits, and its unit where there is one."""
-    text = f"{value:.{_DIGITS}g}"
-    if "e" in text and 1e-6 <= abs(value) < 1e9:
-        text = f"{value:.{max(0, _DIGITS - 1 - _exponent(value))}f}"
-    return text if not unit else f"{text} {unit}"
 
 
 def short(text: str, most: int, width: Callable[[str], int]) -> str:
@@ -172,11 +164,6 @@ def draw_scale_bar(
 
 def round_length(most: float) -> float:
     """Return the largest of 1, 2, 5, 10, … up to a limit."""
-    exponent = _exponent(most)
-    lengths = [float(f"{digit}e{exponent}") for digit in (5, 2, 1)]
+    power = exponent(most)
+    lengths = [float(f"{digit}e{power}") for digit in (5, 2, 1)]
     return next((length for length in lengths if length <= most), lengths[-1])
-
-
-def _exponent(value: float) -> int:
-    """Return the exponent of the first digit, since machines round logarithms differently."""
-    return int(f"{value:.16e}".partition("e")[2])

@@ -16,6 +16,7 @@ from ...model.scene.cameras import Camera
 from ...rendering.canvas import Canvas
 from ...rendering.support_functions import support_of_scene
 from ...stage.look import Look
+from ...stage.overlays.lengths import length_text
 from ...stage.overlays.lettering import heading_font, text_font
 from ...stage.viewed_scene import ViewedScene
 from ...stage.views.viewpoint import UP_DIRECTIONS
@@ -187,10 +188,10 @@ class _Page:
         left, right = middle[0] - half[0], middle[0] + half[0]
         top, bottom = middle[1] - half[1], middle[1] + half[1]
         if across > 0.0:
-            length = marks.length_text(across, self._unit)
+            length = length_text(across, self._unit)
             marks.draw_width(window, left, right, round(bottom) + 14 * text, length, theme, text)
         if upward > 0.0:
-            length = marks.length_text(upward, self._unit)
+            length = length_text(upward, self._unit)
             marks.draw_height(window, top, bottom, round(left) - 14 * text, length, theme, text)
 
     def _write_title(self, told: dict[str, Any], studio: PanelRenderer) -> None:
@@ -239,5 +240,5 @@ def _facts(told: dict[str, Any]) -> str:
 def _sizes(told: dict[str, Any], unit: str | None) -> str:
     if told["bounds"] is None:
         return f"no size   {told['up']} is up"
-    sizes = " x ".join(marks.length_text(size, None) for size in told["bounds"]["size"])
+    sizes = " x ".join(length_text(size, None) for size in told["bounds"]["size"])
     return f"X × Y × Z   {sizes}{' ' + unit if unit else ''}   {told['up']} is up"

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...base import linalg
+from ...model.measuring.cutting import Plane
 from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
 from ...rendering.canvas import Canvas
@@ -19,7 +20,6 @@ from ...stage.blank import Reason, reason_of
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.theme import DARK, LIGHT, Theme
 from .caps import Caps, find_caps, paint_caps
-from .cutting import Plane
 from .hidden import AloneScene
 from .layout import Padding, Rectangle
 from .outlines import draw_outlines

@@ -13,10 +13,10 @@ import numpy as np
 
 from ...base import linalg
 from ...errors import warn
+from ...model.measuring.cutting import Plane
 from ...model.scene.cameras import Camera, OrthographicCamera
 from ...rendering.support_functions import SupportFunction, support_of_box
 from ...stage.views.viewpoint import Sphere
-from .cutting import Plane
 from .layout import Padding, Reach, Rectangle
 from .views import Section, ViewSpec
 

@@ -19,6 +19,9 @@ from .file_dialog import FolderPanel, RecentPanel
 from .list_panels import MaterialPanel, ObjectPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
+from .tools.explosion_panel import ExplosionPanel
+from .tools.measuring_panel import MeasuringPanel
+from .tools.section_panel import SectionPanel
 
 SAMPLES = (1, 4, 16)  # available with both supersampling and multisampling
 STATISTICS = (None, "short", "long")
@@ -290,6 +293,24 @@ def cycle_lists(viewer, step: int) -> None:
     shown = type(viewer.panel) if viewer.panel is not None else None
     panel = following(shown, (None, ObjectPanel, MaterialPanel), step)
     viewer.panel = None if panel is None else panel(viewer)
+
+
+def _toggling_panel(panel: type):
+    """Return an action that opens a panel, or ends what it does."""
+
+    def toggle(viewer, step: int) -> None:
+        if isinstance(viewer.panel, panel):
+            viewer.panel.end()
+        else:
+            viewer.panel = panel(viewer)
+
+    return toggle
+
+
+toggle_section = _toggling_panel(SectionPanel)
+toggle_explosion = _toggling_panel(ExplosionPanel)
+toggle_measuring = _toggling_panel(MeasuringPanel)
+toggle_dimensions = _toggling("dimensions")
 
 
 def _toggle_dialog(viewer, panel: type) -> None:

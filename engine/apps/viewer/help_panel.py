@@ -25,7 +25,7 @@ KeyAt: TypeAlias = Callable[[str], str]
 _COLUMNS = (
     ("Walking", "Drawing"),
     ("View", "Mouse"),
-    ("Overlays", "Files", "Window"),
+    ("Overlays", "Inspection", "Files", "Window"),
 )
 #: As wide as the gap between a key and its action, and that between two columns of the help.
 KEY_GAP, GUTTER = "nn", "nnn"

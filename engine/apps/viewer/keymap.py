@@ -71,6 +71,12 @@ SECTIONS = {
         Binding(("O",), "cycle_lists", "objects, materials: hide, show"),
         Binding(("K",), "cycle_theme", "dark or light"),
     ),
+    "Inspection": (
+        Binding(("Ctrl+X",), "toggle_section", "section: cut by a plane"),
+        Binding(("Ctrl+E",), "toggle_explosion", "explode: parts apart"),
+        Binding(("Ctrl+M",), "toggle_measuring", "measure by clicks"),
+        Binding(("Ctrl+B",), "toggle_dimensions", "box with dimensions"),
+    ),
     "Files": (
         Binding(("Ctrl+O",), "open_file", "open (Shift: opened before)"),
         Binding(("Right", "PageDown"), "next_file", "next model of the folder"),

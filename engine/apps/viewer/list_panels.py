@@ -129,6 +129,13 @@ class Panel:
             self.press(self._first + line, alone)
             self.viewer.redraw()
 
+    def drag(self, x: int) -> None:
+        """Handle a drag, to a column of the picture, that began with a click on the panel."""
+
+    def take(self, x: int, y: int) -> bool:
+        """Handle a click on the model; return whether the panel used it."""
+        return False
+
     def scroll(self, steps: float) -> None:
         """Handle the wheel."""
         self._first = max(0, self._first - round(steps))
@@ -144,6 +151,10 @@ class Panel:
 
     def type(self, text: str) -> None:
         """Handle typed text."""
+
+    def end(self) -> None:
+        """Close the panel, and undo what lasts beyond that."""
+        self.close()
 
     def close(self) -> None:
         """Close the panel."""

@@ -25,7 +25,8 @@ class Mouse:
     Attributes
     ----------
     drag : str or None
-        What a pressed button does: ``"rotate"``, ``"pan"``, ``"dolly"`` or ``"light"``.
+        What a pressed button does: ``"rotate"``, ``"pan"``, ``"dolly"``, ``"light"`` or
+        ``"panel"``.
     """
 
     def __init__(self, viewer: ViewerState):
@@ -47,6 +48,7 @@ class Mouse:
             panel = self._viewer.panel
             if panel is not None and panel.covers(event.x, event.y):
                 panel.click(event.x, event.y, event.shift or event.button != "left")
+                self.drag = "panel"
                 return
             self.drag = _drag(event)
             return
@@ -73,6 +75,9 @@ class Mouse:
             viewer.walker.look(event.dx, event.dy)
             viewer.walker.place(viewer.view)
             viewer.redraw()
+        elif self.drag == "panel":
+            if viewer.panel is not None:
+                viewer.panel.drag(event.x)
         elif self.drag is not None:
             self._travelled += abs(event.dx) + abs(event.dy)
             dx, dy = self._held_back[0] + event.dx, self._held_back[1] + event.dy

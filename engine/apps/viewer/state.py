@@ -22,6 +22,7 @@ from ...stage.views.walking import GroundController, controller
 from .help_panel import HelpPages
 from .messages import Messages
 from .sampling import Sampling
+from .tools.inspector import Inspector
 
 
 class ViewerState:
@@ -55,6 +56,8 @@ class ViewerState:
     selected : RayHit or None
     panel : Panel or None
         The list over the picture; None where there is none.
+    inspector : Inspector
+        The section and the distance of the parts.
     """
 
     def __init__(
@@ -81,6 +84,7 @@ class ViewerState:
         self.messages = Messages()
         self.sampling = sampling or Sampling(view_renderer.samples)
         self.panel = None
+        self.inspector = Inspector(self)
         self._changed = True
 
     @property
@@ -100,11 +104,14 @@ class ViewerState:
     def forget_scene(self) -> None:
         """Reset the state that belongs to the previous scene."""
         self.selected = None
+        self.inspector.forget()
         self.messages.trouble = ""
         self.sampling.start_anew()
 
     def select(self, x: int, y: int) -> None:
-        """Select the object at a pixel; deselect if there is none."""
+        """Select the object at a pixel, or deselect, unless a panel uses the click."""
+        if self.panel is not None and self.panel.take(x, y):
+            return
         self.selected = self.view_renderer.pick(self.view, self.time, x, y)
         self.redraw()
 

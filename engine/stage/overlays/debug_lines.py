@@ -40,7 +40,7 @@ class Lines(NamedTuple):
 def box_lines(scene: Scene) -> list[Lines]:
     """Return the boxes of visible objects."""
     boxes = [box for node in scene.nodes if (box := node.bounds) is not None][:MOST_BOXES]
-    return [Lines(_edges(np.array(boxes)), BOX)] if boxes else []
+    return [Lines(box_edges(np.array(boxes)), BOX)] if boxes else []
 
 
 def tree_lines(scene: Scene) -> list[Lines]:
@@ -62,7 +62,7 @@ def tree_lines(scene: Scene) -> list[Lines]:
             if room < 0:
                 break
             color = LEVELS[(number - 1) % len(LEVELS)] if number else BOX
-            edges = linalg.transform_points(pose, _edges(boxes).reshape(-1, 3))
+            edges = linalg.transform_points(pose, box_edges(boxes).reshape(-1, 3))
             lines.append(Lines(edges.reshape(-1, 2, 3), color))
     return lines[::-1]
 
@@ -109,6 +109,6 @@ def _before(frame: Frame, segments: np.ndarray) -> np.ndarray:
     return segments
 
 
-def _edges(boxes: np.ndarray) -> np.ndarray:
+def box_edges(boxes: np.ndarray) -> np.ndarray:
     """Return the edges of boxes (N, 2, 3) as segments (12 N, 2, 3)."""
     return box_corners(boxes)[:, _EDGES].reshape(-1, 2, 3)

@@ -1,4 +1,4 @@
-"""Text over a picture: grid numbers, colour bar, axes, metadata.
+"""Text over a picture: grid numbers, dimensions, colour bar, axes, metadata.
 
 In: a frame and its scene. Out: the same frame, with labels.
 """
@@ -6,6 +6,8 @@ In: a frame and its scene. Out: the same frame, with labels.
 from __future__ import annotations
 
 from collections.abc import Callable
+
+import numpy as np
 
 from ...rendering.frame import Frame
 from ..staging import Staging
@@ -35,7 +37,8 @@ def draw_labels(
     """
     settings, viewed, theme = staging.settings, staging.viewed, staging.theme
     bar = viewed.bar if settings.bar else None
-    if not (settings.axes or settings.metadata or settings.axes_grid or bar is not None):
+    sizes = (settings.dimensions or settings.measured) and not split
+    if not (settings.axes or settings.metadata or settings.axes_grid or sizes or bar is not None):
         return
     from .overlay import draw_axes, draw_block
     from .scalar_bar import draw_scalar_bar, place_bar
@@ -45,6 +48,8 @@ def draw_labels(
         size = canvas.width, canvas.height
         beside = NOTHING if bar is None else place_bar(*size, bar, scale).taken(*size)
         staging.box.label(frame, scale, theme, beside)
+    if sizes:
+        _draw_sizes(frame, staging, scale)
     if bar is not None:
         draw_scalar_bar(canvas, bar, scale, theme)
     if settings.axes:
@@ -52,3 +57,16 @@ def draw_labels(
     if settings.metadata:
         lines, corner = viewed.metadata(), "top right"
         draw_block(canvas, lines, corner=corner, scale=scale, theme=theme, is_table=True)
+
+
+def _draw_sizes(frame: Frame, staging: Staging, scale: int) -> None:
+    """Draw the box of the model with its dimensions, and what is measured."""
+    from .dimensions import draw_dimensions
+    from .measurements import draw_measurement
+
+    viewed, theme = staging.viewed, staging.theme
+    if staging.settings.dimensions:
+        draw_dimensions(frame, np.array(viewed.scene.bounds), viewed.unit, scale, theme)
+    for measured in staging.settings.measured:
+        here = measured._replace(points=measured.points - np.array(viewed.origin))
+        draw_measurement(frame, here, viewed.unit, scale, theme)

@@ -12,11 +12,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...base.near_words import meant
+from ...errors import warn
 from ...model.navigation import NavigationGrid, Walker
 from ...model.scene.orbiting import home_axes
 from ...model.scene.scene import Scene
 from ...model.scene.shown import placing_pose, shown_object
-from ..visibility import DRAWABLE
+from ..visibility import DRAWABLE, mesh_of
 from .viewpoint import Sphere, Viewpoint
 
 #: The walker's height assumes that the model's unit is the metre, except for small and large
@@ -73,6 +75,8 @@ def find_ground(
     axes = home_axes(view.up)
     metre = min(max(1.0, bounds.radius / MOST_RADIUS), bounds.radius / LEAST_RADIUS)
     turned = _turned(scene, axes)
+    if walkable is not None:
+        _warn_of_unknown(walkable, turned)
     low, high = turned.bounds
     cell = max(CELL * metre, float((high - low)[[0, 2]].max()) / MOST_CELLS)
     options: dict[str, Any] = {} if slope is None else {"max_slope": slope}
@@ -100,6 +104,15 @@ def _turned(scene: Scene, axes: np.ndarray) -> Scene:
         if isinstance(node.object, DRAWABLE) and node.shown:
             turned.add(shown_object(node), parent=group, pose=placing_pose(node))
     return turned
+
+
+def _warn_of_unknown(walkable: Collection[str], scene: Scene) -> None:
+    """Name the materials that are to be walked on, but which no mesh has."""
+    meshes = [mesh_of(node.object) for node in scene.nodes if node.object is not None]
+    known = dict.fromkeys(material.name for mesh in meshes for material in mesh.materials)
+    for name in walkable:
+        if name not in known:
+            warn(f"walkable: no material is called {name!r}{meant(name, list(known))}")
 
 
 def told(grid: NavigationGrid) -> str:

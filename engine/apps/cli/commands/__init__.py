@@ -110,7 +110,7 @@ COMMANDS = {
         "draw a model or a scene to a file",
         "Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP), as lines (SVG, PDF) or, with "
         "--turntable, to an animation (GIF, WebP, APNG).",
-        _of_modules("scene_options", "render_options", "shared_options"),
+        _of_modules("scene_options", "render_options", "shared_options", "inspection_options"),
         common=(*_OF_PICTURES, "--turntable", "--animation", "--no-background"),
     ),
     "info": Command(

@@ -16,7 +16,7 @@ from ....stage.viewed_scene import NotInModelError
 from ....stage.views.viewpoint import Viewpoint
 from ...drawings.units import SUFFIXES
 from ..one_by_one import draw_each, tried
-from ..options import scene_options
+from ..options import inspection_options, scene_options
 from ..options import shared_options as options
 from ..options.drawing_options import drawing_keywords, is_drawing, looks
 from ..options.input_options import STANDARD_INPUT, jobs
@@ -73,7 +73,9 @@ def _render(args: argparse.Namespace) -> int:
     report = Report(args.verbose)
     viewed = scene_options.viewed_scene(args)
     report.loaded(viewed)
-    how = options.viewing(args)
+    inspection_options.tell_measures(args, viewed)
+    viewed = inspection_options.inspected(viewed, args.explode, args.section)
+    how = options.viewing(args, **inspection_options.sizes(args))
     with how.renderer(
         viewed, DEFAULT_SIZE, PICTURE, report, transparent=args.no_background
     ) as view_renderer:
@@ -98,6 +100,7 @@ def _render(args: argparse.Namespace) -> int:
 
 def _check(args: argparse.Namespace) -> None:
     """Refuse impossible outputs before any work."""
+    inspection_options.check(args)
     if args.reference_threshold is not None and args.reference is None:
         raise UsageError("--reference-threshold goes with --reference")
     if None not in (args.turntable, args.animation) and args.turntable != args.animation:

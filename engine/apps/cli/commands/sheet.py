@@ -13,7 +13,9 @@ from ....errors import InvalidArgumentError
 from ....model.materials.material import Material
 from ...drawings.units import SUFFIXES
 from ...sheet.contact_sheet import Sheet, contact_sheet
+from ...sheet.opening import open_sources
 from ...sheet.views import DEFAULT_VIEWS, check_views
+from ..options import inspection_options
 from ..options.drawing_options import drawing_keywords, is_drawing, looks
 from ..options.input_options import model_files, of_robot
 from ..options.picture_options import look
@@ -35,7 +37,7 @@ def sheet(args: argparse.Namespace) -> int:
         return _draw_lines(args)
     report = _check(args)
     drawn = contact_sheet(
-        model_files(args.models),
+        _models(args),
         **_of_model(args),
         size=args.size,
         look=look(args),
@@ -46,6 +48,18 @@ def sheet(args: argparse.Namespace) -> int:
     )
     _write(args.output, report, drawn)
     return 0
+
+
+def _models(args: argparse.Namespace) -> list[Any]:
+    """Return the models, opened if they are taken apart or measured."""
+    files: list[Any] = list(model_files(args.models))
+    if args.explode is None and not args.measure:
+        return files
+    opened = open_sources(files, root=args.root, **of_robot(args))
+    for viewed in opened:
+        viewed.unit = args.unit or viewed.unit
+        inspection_options.tell_measures(args, viewed)
+    return [inspection_options.inspected(viewed, args.explode) for viewed in opened]
 
 
 def _of_model(args: argparse.Namespace) -> dict[str, Any]:
@@ -78,7 +92,7 @@ def _draw_lines(args: argparse.Namespace) -> int:
         _refuse_models(args, [args.output])
     page = {} if args.page is None else {"page": args.page}
     drawn = drawing_sheet(
-        model_files(args.models),
+        _models(args),
         **_of_model(args),
         title=args.title,
         **page,

@@ -30,7 +30,8 @@ def add_color(group) -> None:
         type=values.color,
         metavar="COLOR",
         help="colour of the whole model, instead of its materials and colours; with --texture, of "
-        "what has no materials; of a scene, of what has no texture and does not glow",
+        "what has no materials; of a built-in scene that is no model, of what has no texture and "
+        "does not glow",
     )
 
 
@@ -144,7 +145,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         if args.color is not None:
             from ....stage.open_model import dress_scene
 
-            dress_scene(viewed.scene, args.color)
+            dress_scene(viewed, args.color)
         return viewed
     from ....stage.open_models import open_models
 

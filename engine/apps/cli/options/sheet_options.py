@@ -9,6 +9,7 @@ from .. import values
 from .camera_options import add_up
 from .drawing_options import add_lines
 from .input_options import add_robot, add_root
+from .inspection_options import add_explode, add_measure
 from .picture_options import add_drawing, add_look
 from .scalar_options import add_scalars
 from .scene_options import add_color
@@ -52,6 +53,8 @@ def add(parser) -> None:
         help="cut the model in two views of its own: x=0.5 cuts off what has greater coordinates, "
         "-x=0.5 the rest, x=50%% is in the middle, as is x. May be given several times",
     )
+    add_explode(group)
+    add_measure(group)
     group.add_argument(
         "--size",
         type=values.size,

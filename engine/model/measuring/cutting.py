@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base import linalg
-from ...model.geometry.mesh import Mesh
-from ...model.scene.instances import InstancedMesh, instance_matrices
-from ...model.scene.nodes import Node
-from ...model.scene.shown import placing_pose, shown_object
+from ..geometry.mesh import Mesh
+from ..scene.instances import InstancedMesh, instance_matrices
+from ..scene.nodes import Node
+from ..scene.shown import placing_pose, shown_object
 
 #: With more instances, they are not cut individually.
 MOST_INSTANCES = 4096
@@ -112,7 +112,7 @@ def _cut(points: np.ndarray, faces: np.ndarray, plane: Plane) -> np.ndarray:
     return segments
 
 
-def _crossings(points: np.ndarray, heights: np.ndarray, a: np.ndarray, b: np.ndarray):
+def _crossings(points: np.ndarray, heights: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Return where edges cross the plane, computed from their lower to their upper end."""
     swapped = heights[a] >= 0.0
     low, high = np.where(swapped, b, a), np.where(swapped, a, b)

@@ -1,0 +1,1 @@
+"""The viewer's tools that inspect a model: section, explosion, measuring."""

@@ -1,0 +1,1 @@
+"""Inspecting models: sections and parts taken apart, as scenes that are drawn like any other."""

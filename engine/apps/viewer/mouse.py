@@ -40,14 +40,15 @@ class Mouse:
 
     def button(self, event) -> None:
         """Handle a press or release of a button."""
+        panel = self._viewer.panel
+        if event.down and panel is not None and panel.covers(event.x, event.y):
+            self.release()
+            panel.click(event.x, event.y, event.shift or event.button != "left")
+            return
         if self._viewer.walker is not None:
             return
         if event.down:
             self.release()
-            panel = self._viewer.panel
-            if panel is not None and panel.covers(event.x, event.y):
-                panel.click(event.x, event.y, event.shift or event.button != "left")
-                return
             self.drag = _drag(event)
             return
         clicked = self.drag == "rotate" and not self._dragging
@@ -69,6 +70,8 @@ class Mouse:
         """Handle a motion of the mouse."""
         viewer = self._viewer
         if viewer.walker is not None:
+            if viewer.panel is not None:
+                return
             self.release()
             viewer.walker.look(event.dx, event.dy)
             viewer.walker.place(viewer.view)
@@ -96,11 +99,11 @@ class Mouse:
     def wheel(self, event) -> None:
         """Handle the wheel."""
         viewer = self._viewer
-        if viewer.walker is not None:
-            viewer.walker.change_speed(event.steps)
-            return
         if viewer.panel is not None and viewer.panel.covers(event.x, event.y):
             viewer.panel.scroll(event.steps)
+            return
+        if viewer.walker is not None:
+            viewer.walker.change_speed(event.steps)
             return
         viewer.orbit.dolly(event.steps, (event.x, event.y), viewer.view_renderer.size)
         viewer.redraw()

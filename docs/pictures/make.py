@@ -379,14 +379,13 @@ def in_a_window(name: str, use) -> np.ndarray:
 
 
 def viewer_help() -> np.ndarray:
-    """The list of all commands, searched."""
+    """The list of all commands, with what they are at present."""
 
-    def search(viewer: Viewer) -> None:
+    def open_list(viewer: Viewer) -> None:
         viewer.perform("toggle_edges")
         viewer.perform("toggle_help")
-        viewer.panel.set_filter("e")
 
-    return in_a_window("train.asc", search)
+    return in_a_window("train.asc", open_list)
 
 
 def viewer_bar() -> np.ndarray:

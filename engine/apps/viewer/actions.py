@@ -376,11 +376,12 @@ def toggle_fullscreen(viewer, step: int) -> None:
 
 
 def save_screenshot(viewer, step: int) -> None:
-    """Write the frame, without help and messages, to a numbered PNG in the current folder."""
+    """Write a frame of the window's size, and nothing over it, to a numbered PNG in the folder."""
     path = numbered_path(
         Path.cwd(), f"{Path(viewer.view_renderer.viewed.title).stem}-screenshot", ".png"
     )
     viewer.view_renderer.samples = viewer.sampling.at_rest()
+    viewer.view_renderer.resize(viewer.window.size)
     try:
         viewer.view_renderer.draw(viewer.view, viewer.time).save(path)
     except OSError as error:

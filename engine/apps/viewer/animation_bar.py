@@ -154,12 +154,7 @@ def _draw_track(
 ) -> None:
     start, end = line.column_at(0.0), line.column_at(1.0)
     here, y = line.column_at(min(max(share, 0.0), 1.0)), canvas.height / 2
-    half = font.size / 9
-    for left, right, color in (
-        (start, end, (*theme.text[:3], _TRACK_ALPHA)),
-        (start, here, theme.title),
-    ):
-        canvas.polygon(
-            [(left, y - half), (right, y - half), (right, y + half), (left, y + half)], color
-        )
+    high = max(round(font.size / 5), 2)
+    for right, color in ((end, (*theme.text[:3], _TRACK_ALPHA)), (here, theme.title)):
+        canvas.rectangle(start, round(y - high / 2), right - start, high, color)
     canvas.disc(here, y, font.size * (0.42 if is_hovered else 0.34), theme.title)

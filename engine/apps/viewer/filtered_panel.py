@@ -27,8 +27,7 @@ class FilteredPanel(Panel):
         self.chosen = 0
 
     def heads(self, left_out: int) -> list[str]:
-        more = f"  ({len(self.rows())}, wheel: more)" if left_out else ""
-        return [self.title + more, f"filter: {self.filter}_"]
+        return [self.title + self.more(left_out), f"filter: {self.filter}_"]
 
     def choices(self) -> Sequence[int]:
         """Return the numbers of the rows that can be chosen."""

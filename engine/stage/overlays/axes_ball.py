@@ -6,6 +6,7 @@ the direction under the mouse, from which a click is to look. Viewer and editor 
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -130,12 +131,13 @@ def _faded(color: Rgba, nearness: float, theme: Theme) -> Rgba:
 def _draw_line(
     canvas: Canvas, start: tuple[float, float], end: tuple[float, float], width: float, color: Rgba
 ) -> None:
-    along = np.subtract(end, start)
-    length = float(np.sqrt((along * along).sum()))
+    (x0, y0), (x1, y1) = start, end
+    length = math.sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2)
     if length < 1.0:
         return  # seen end on
-    aside = np.array([-along[1], along[0]]) * (width / length)
-    canvas.polygon([start + aside, end + aside, end - aside, start - aside], color)
+    x, y = (y0 - y1) * width / length, (x1 - x0) * width / length
+    sides = np.array([(x0 + x, y0 + y), (x1 + x, y1 + y), (x1 - x, y1 - y), (x0 - x, y0 - y)])
+    canvas.polygon(sides, color)
 
 
 def _draw_letter(canvas: Canvas, text: str, tip: Tip, radius: float, theme: Theme) -> None:

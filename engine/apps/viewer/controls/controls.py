@@ -7,20 +7,25 @@ ball, in a free corner.
 
 from __future__ import annotations
 
+import math
+import time as clock
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ....rendering.canvas import Canvas
+from ....rendering.fonts.font import Font
 from ....stage.overlays.axes_ball import RADIUS, BallPlace, draw_ball, tip_at, turn_to
 from ....stage.overlays.lettering import table_font, text_font
 from ....stage.overlays.overlay import MARGIN, PADDING, text_scale_for
+from ....stage.overlays.theme import Theme
 from ... import events
 from ..animation_bar import TimeState, draw_time_line, time_line
 from ..help_panel import CommandPanel
+from ..kept_drawing import KeptDrawing
 from ..mouse import CLICK_REACH
-from .menu_bar import Button, bar_buttons, bar_height, button_at, draw_menu_bar
+from .menu_bar import Button, bar_buttons, bar_height, button_at, draw_menu_bar, lit_buttons
 from .window_layout import Rectangle, WindowLayout, has_room, lay_out
 
 if TYPE_CHECKING:
@@ -28,6 +33,8 @@ if TYPE_CHECKING:
 
 #: Characters of a line of the statistics.
 SIDE_COLUMNS = 46
+#: Seconds between statistics in motion: faster, nobody could read them.
+_READ_SECONDS = 0.25
 #: Diameters of the ball that a drag over makes one turn.
 _BALL_TURN = 2.0
 
@@ -55,6 +62,12 @@ class Controls:
         self._hovered: tuple[str, str | None] = ("", None)
         self._held = ""
         self._travelled = 0
+        self._bar, self._side = KeptDrawing(), KeptDrawing()
+        self._kept_ball = KeptDrawing(is_clear=True)
+        self._told: list[str] = []
+        self._due = 0.0
+        self._buttons: list[Button] = []
+        self._laid_out: tuple[int, Font] | None = None
 
     # The window
 
@@ -95,10 +108,7 @@ class Controls:
         layout, viewer = self.layout, self._viewer
         theme, font = viewer.view_renderer.theme, text_font(self.scale)
         if layout.bar is not None:
-            canvas = Canvas(layout.bar.of(pixels))
-            shown = self._open_menu or self._part("bar")
-            draw_menu_bar(canvas, self.buttons, viewer, shown, font, theme)
-            self._draw_line(canvas)
+            self._draw_bar(layout.bar, pixels, font, theme)
         if layout.time is not None:
             canvas = Canvas(layout.time.of(pixels))
             period = viewer.view_renderer.viewed.period
@@ -106,17 +116,16 @@ class Controls:
             line = time_line(canvas.width, period, font)
             draw_time_line(canvas, line, state, self._part("time"), font, theme)
         if layout.side is not None:
-            self._draw_side(Canvas(layout.side.of(pixels)))
+            self._draw_side(layout.side, pixels, theme)
 
-    def _draw_line(self, canvas: Canvas) -> None:
-        """Write the short statistics into the bar, if there is room."""
-        if not self.holds_line:
-            return
-        viewer, font = self._viewer, text_font(self.scale)
-        (text,) = viewer.statistics_lines()
-        x = self.buttons[-1].left - font.width(text) - font.size // 1
-        y = (canvas.height - font.line_height) // 2
-        canvas.text(x, y, text, viewer.view_renderer.theme.key, font=font)
+    def _draw_bar(self, bar: Rectangle, pixels: np.ndarray, font: Font, theme: Theme) -> None:
+        """Draw the bar, with the short statistics if there is room."""
+        buttons, chosen = self.buttons, self._open_menu or self._part("bar")
+        lit = lit_buttons(buttons, self._viewer)
+        line = self._viewer.statistics_lines()[0] if self.holds_line else ""
+        shows = buttons, lit, chosen, line, font, theme
+        size = bar.width, bar.height
+        self._bar.put(bar.of(pixels), size, shows, lambda canvas: draw_menu_bar(canvas, *shows))
 
     @property
     def holds_line(self) -> bool:
@@ -129,26 +138,33 @@ class Controls:
         free = buttons[-1].left - buttons[-2].left - buttons[-2].width
         return font.width(text) + 2 * font.size < free
 
-    def _draw_side(self, canvas: Canvas) -> None:
-        """Write the statistics into their column, as many lines as fit."""
-        viewer, font = self._viewer, table_font(self.scale)
-        theme = viewer.view_renderer.theme
-        canvas.clear((*theme.block[:3], 255))
-        width = max(canvas.width - 2 * PADDING, 1)
-        lines = [part for line in viewer.statistics_lines() for part in font.wrapped(line, width)]
-        rows = max((canvas.height - 2 * PADDING) // font.line_height, 1)
-        for row, text in enumerate(lines[:rows]):
-            y = PADDING + row * font.line_height
-            canvas.text(PADDING, y, text, theme.text, font=font)
+    def _draw_side(self, side: Rectangle, pixels: np.ndarray, theme: Theme) -> None:
+        """Write the statistics into their column; in motion, a few times a second."""
+        viewer, now = self._viewer, clock.monotonic()
+        moves = viewer.playing or bool(viewer.held_positions)
+        if not moves or now >= self._due:
+            self._told, self._due = viewer.statistics_lines(), now + _READ_SECONDS
+        font, size = table_font(self.scale), (side.width, side.height)
+        shows = self._told, font, theme
+        self._side.put(side.of(pixels), size, shows, lambda canvas: _write_lines(canvas, *shows))
 
     def draw_ball(self, canvas: Canvas) -> None:
         """Draw the ball of axes on the picture."""
         place = self._ball
-        if place is not None:
-            is_hovered = self._hovered[0] == "ball" or self._held == "ball"
-            rotation, theme = self._viewer.view.rotation(), self._viewer.view_renderer.theme
-            lit = self._part("ball")
-            draw_ball(canvas, rotation, place, theme=theme, lit=lit, is_hovered=is_hovered)
+        if place is None:
+            return
+        rotation, theme = self._viewer.view.rotation(), self._viewer.view_renderer.theme
+        is_hovered = self._hovered[0] == "ball" or self._held == "ball"
+        how = {"theme": theme, "lit": self._part("ball"), "is_hovered": is_hovered}
+        half = math.ceil(place.radius) + 1
+        left, top = round(place.x) - half, round(place.y) - half
+        moved = place._replace(x=place.x - left, y=place.y - top)
+        self._kept_ball.put(
+            canvas.pixels[top:, left:],
+            (2 * half, 2 * half),
+            (rotation.tobytes(), moved, how),
+            lambda kept: draw_ball(kept, rotation, moved, **how),
+        )
 
     @property
     def _ball(self) -> BallPlace | None:
@@ -166,7 +182,10 @@ class Controls:
     @property
     def buttons(self) -> list[Button]:
         """The buttons of the bar."""
-        return bar_buttons(self._viewer.window.size[0], text_font(self.scale))
+        width, font = self._viewer.window.size[0], text_font(self.scale)
+        if self._laid_out != (width, font):
+            self._laid_out, self._buttons = (width, font), bar_buttons(width, font)
+        return self._buttons
 
     @property
     def _open_menu(self) -> str:
@@ -321,3 +340,13 @@ class Controls:
         if held:
             viewer.redraw()
         return bool(held)
+
+
+def _write_lines(canvas: Canvas, lines: list[str], font: Font, theme: Theme) -> None:
+    """Write as many lines of a column as fit, wrapped to its width."""
+    canvas.clear((*theme.block[:3], 255))
+    width = max(canvas.width - 2 * PADDING, 1)
+    wrapped = [part for line in lines for part in font.wrapped(line, width)]
+    rows = max((canvas.height - 2 * PADDING) // font.line_height, 1)
+    for row, text in enumerate(wrapped[:rows]):
+        canvas.text(PADDING, PADDING + row * font.line_height, text, theme.text, font=font)

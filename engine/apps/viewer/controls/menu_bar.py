@@ -16,8 +16,11 @@ from ..keymap import BINDINGS, SECTIONS, Binding
 if TYPE_CHECKING:
     from ..viewer import Viewer
 
-#: Above and below the texts, at scale 1, and the alpha of the button under the mouse.
+#: Above and below the texts, at scale 1.
 MARGIN = 4
+#: Left and right of a button's text, in letters' sizes.
+_INSET = 0.6
+#: Alpha of the button under the mouse.
 HOVER_ALPHA = 40
 #: The command that stands at the right end.
 _LAST = "toggle_help"
@@ -58,7 +61,7 @@ def bar_buttons(width: int, font: Font) -> list[Button]:
 
 def _button(text: str, left: int, font: Font, binding: Binding | None) -> Button:
     arrow = 0 if binding is not None else round(font.size)
-    return Button(text, left, font.width(text) + arrow + 2 * round(0.6 * font.size), binding)
+    return Button(text, left, font.width(text) + arrow + 2 * round(_INSET * font.size), binding)
 
 
 def button_at(buttons: list[Button], x: int) -> Button | None:
@@ -67,51 +70,58 @@ def button_at(buttons: list[Button], x: int) -> Button | None:
     return next(found, None)
 
 
+def lit_buttons(buttons: list[Button], viewer: Viewer) -> list[bool]:
+    """Return of each button whether its command is on."""
+    values = (None if one.binding is None else one.binding.value for one in buttons)
+    return [value is not None and value(viewer).is_lit for value in values]
+
+
 def draw_menu_bar(
     canvas: Canvas,
     buttons: list[Button],
-    viewer: Viewer,
-    hovered: str | None,
+    lit: list[bool],
+    chosen: str | None,
+    line: str,
     font: Font,
     theme: Theme,
 ) -> None:
-    """Draw the bar; what is on is lit up.
+    """Draw the bar.
 
     Parameters
     ----------
     canvas : Canvas
         Over the strip.
     buttons : list of Button
-    viewer : Viewer
-    hovered : str or None
+    lit : list of bool
+        Which of them are lit up as on.
+    chosen : str or None
         The text of the button under the mouse, or of the open menu.
+    line : str
+        A text before the last button.
     font : Font
     theme : Theme
     """
     canvas.clear((*theme.block[:3], 255))
-    for button in buttons:
-        if button.text == hovered:
+    inset, y = round(_INSET * font.size), (canvas.height - font.line_height) // 2
+    for button, is_lit in zip(buttons, lit, strict=True):
+        if button.text == chosen:
             color = (*theme.text[:3], HOVER_ALPHA)
             canvas.rectangle(button.left, 0, button.width, canvas.height, color)
-        is_lit = _is_lit(button.binding, viewer)
-        color = theme.title if is_lit else theme.text
-        x, y = button.left + round(0.6 * font.size), (canvas.height - font.line_height) // 2
-        canvas.text(x, y, button.text, color, font=font)
+        x = button.left + inset
+        canvas.text(x, y, button.text, theme.title if is_lit else theme.text, font=font)
         if is_lit:
             wide, high = font.width(button.text), max(round(font.size / 8), 1)
             canvas.rectangle(x, canvas.height - high, wide, high, theme.title)
         if button.binding is None:
             _draw_arrow(canvas, button, font, theme)
-
-
-def _is_lit(binding: Binding | None, viewer: Viewer) -> bool:
-    return binding is not None and binding.value is not None and binding.value(viewer).is_lit
+    x = buttons[-1].left - font.width(line) - round(font.size)
+    canvas.text(x, y, line, theme.key, font=font)
 
 
 def _draw_arrow(canvas: Canvas, button: Button, font: Font, theme: Theme) -> None:
     """Draw the triangle that points down to a menu."""
     half = font.size / 5
-    x = button.left + button.width - 0.6 * font.size - 1.6 * half
+    x = button.left + button.width - _INSET * font.size - 1.6 * half
     y = canvas.height / 2 + half / 4
     canvas.polygon([(x - half, y - half / 2), (x + half, y - half / 2), (x, y + half)], theme.key)
 

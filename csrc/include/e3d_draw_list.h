@@ -54,13 +54,15 @@ typedef struct e3d_draw_list {
     uint64_t *bits;   /* scratch */
     int32_t words;
     int64_t boxes_tested; /* of instances, and of the branches of their trees */
+    int64_t calls;        /* draws, where all runs of one node's instances are one */
+    int64_t node_calls;   /* likewise, if no nodes had been merged */
 } e3d_draw_list;
 
 void e3d_draw_list_free(e3d_draw_list *list);
 
-/* The primitives of all nodes that are shown, in view or not. */
+/* All nodes that are shown and draw anything, in view or not, and what they draw. */
 typedef struct e3d_totals {
-    int64_t clusters, triangles;
+    int64_t nodes, instances, clusters, triangles; /* instances: plain meshes count as one each */
 } e3d_totals;
 e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count);
 

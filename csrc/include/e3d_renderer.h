@@ -13,7 +13,9 @@ extern "C" {
 #endif
 
 typedef struct e3d_stats {
-    int64_t draws, instances;
+    int64_t draws;              /* the frame's, of which a node may have several */
+    int64_t instances;          /* submitted; plain meshes count as one each */
+    int64_t instances_drawn;    /* of these, those with a cluster that is drawn, or with lines or points */
     int64_t clusters, triangles; /* submitted */
     /* Each of these is at most the one before it. If a whole group of clusters is occluded, all of its clusters count as in the
      * frustum. Clusters that face away count as unoccluded, but not as drawn. */

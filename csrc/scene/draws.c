@@ -213,6 +213,8 @@ e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects
     for (int32_t slot = 0; slot < rows->count; slot++)
         if (draws_at(rows, slot, objects, object_count)) {
             const e3d_draw *draw = &objects[rows->object[slot]].draw;
+            totals.nodes++;
+            totals.instances += draw->instances;
             totals.clusters += (int64_t)draw->mesh->cluster_count * draw->instances;
             totals.triangles += (int64_t)draw->mesh->desc.faces_count * draw->instances;
         }
@@ -277,7 +279,7 @@ int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64
                     const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int merge)
 {
     list->count = list->order_count = list->nodes = 0;
-    list->boxes_tested = 0;
+    list->boxes_tested = list->calls = list->node_calls = 0;
     if (object_count > INT32_MAX / 2 || !reserve_all(list, rows->count, 2 * object_count))
         return 0;
     for (int32_t i = 0; i < 2 * object_count; i++)
@@ -290,8 +292,11 @@ int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64
         const drawn_node node = {e3d_placing_pose(rows->world, rows->anchor, slot), rows->id[slot], receives_none(rows, slot), spared_lights(rows, slot)};
         e3d_merged_draw *of = merged_draw_of(list, rows, slot);
         int together = merge && of->nodes > 1 && !node.spared_lights && object->draw.pose_kind == E3D_POSE_NONE;
+        int32_t draws = list->count, turns = list->order_count;
         if (!(together ? append_member(list, object, of, &node) : append_node(list, object, &node, view)))
             return 0;
+        list->calls += list->count > draws;
+        list->node_calls += list->order_count > turns;
     }
     return 1;
 }

@@ -274,7 +274,7 @@ cdef class NativeStats:
 
     cdef e3d_stats stats
     cdef e3d_totals totals
-    cdef int64_t draws_unbatched, nodes_in_frustum, boxes_tested
+    cdef int64_t draws, draws_unbatched, nodes_in_frustum, boxes_tested
     cdef int materials, lights
     cdef public int shadow_maps, shadow_maps_drawn
 
@@ -282,17 +282,20 @@ cdef class NativeStats:
         cdef e3d_stats *stats = &self.stats
         cdef e3d_totals *totals = &self.totals
         return {
-            "draws": stats.draws,
+            "draws": self.draws,
             "draws_unbatched": self.draws_unbatched,
             "materials": self.materials,
             "lights": self.lights,
             "shadow_maps": self.shadow_maps,
             "shadow_maps_drawn": self.shadow_maps_drawn,
-            "instances": stats.instances,
             "boxes_tested": self.boxes_tested,
+            "objects": totals.nodes,
             "nodes_in_frustum": self.nodes_in_frustum,
             "nodes_unoccluded": stats.nodes_unoccluded,
             "nodes_drawn": stats.nodes_drawn,
+            "instances": totals.instances,
+            "instances_in_frustum": stats.instances,
+            "instances_drawn": stats.instances_drawn,
             "clusters": totals.clusters,
             "clusters_in_frustum": stats.clusters_in_frustum,
             "clusters_unoccluded": stats.clusters_unoccluded,
@@ -440,7 +443,8 @@ cdef class NativeRenderer:
         if not self.draw(&frame, &outputs, &drawn.stats):
             return drawn
         drawn.totals = draw_list.totals
-        drawn.draws_unbatched = draw_list.placed.order_count
+        drawn.draws = draw_list.placed.calls
+        drawn.draws_unbatched = draw_list.placed.node_calls
         drawn.boxes_tested = draw_list.node_boxes_tested + draw_list.placed.boxes_tested
         drawn.nodes_in_frustum = draw_list.placed.nodes
         drawn.materials = draw_list.material_count

@@ -102,9 +102,10 @@ class Frame:
         Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), of
         all (``ms_total``), and of that while fewer than two threads worked (``ms_alone``); the
         number of threads and tiles, and the backend. ``plan`` names the code paths of the tiles
-        (docs/plan.md lists them; none for the backend ``scalar``). ``nodes``, ``clusters`` and
-        ``triangles`` count the whole scene; with the suffix ``_in_frustum``, ``_unoccluded`` or
-        ``_drawn``, what remains after each culling stage. ``boxes_tested`` counts the boxes tested
+        (docs/plan.md lists them; none for the backend ``scalar``). ``nodes``, ``instances``,
+        ``clusters`` and ``triangles`` count the whole scene, ``objects`` its nodes that draw
+        anything; with the suffix ``_in_frustum``, ``_unoccluded`` or ``_drawn``, what remains after
+        each culling stage. ``boxes_tested`` counts the boxes tested
         for frustum culling when the view or the scene last changed: those of nodes and instances,
         and those of tree branches. Through a lens, counters and times are sums over ``lens_faces``
         pinhole pictures, and ``lens_rays`` rays were cast into the scene.

@@ -93,7 +93,8 @@ def test_draws_are_counted():
     on, off = pictures(scene, Renderer((64, 64)))
     assert (on.stats["draws"], on.stats["draws_unbatched"]) == (2, 60)
     assert (off.stats["draws"], off.stats["draws_unbatched"]) == (60, 60)
-    assert on.stats["instances"] == off.stats["instances"] == 60
+    assert on.stats["instances_in_frustum"] == off.stats["instances_in_frustum"] == 60
+    assert on.stats["instances"] == on.stats["objects"] == 61
     assert on.stats["clusters"] == off.stats["clusters"]
 
 
@@ -204,3 +205,28 @@ def test_meshes_of_the_same_materials_share_them():
         assert (renderer.render(made, CAMERA).color != apart.color).any()
         made.nodes[3].object.materials[0] = e3d.Material(color=(255, 255, 255))
         assert renderer.render(made, CAMERA).stats["materials"] == 6
+
+
+@pytest.mark.parametrize("backend", ["scalar", "auto"])
+def test_draws_of_instances_fall_with_culling(backend):
+    """However many runs of instances there are in the view, a node with them is one draw."""
+    poses = np.zeros((4000, 4), np.float32)
+    poses[:, :2] = np.indices((100, 40)).reshape(2, -1).T - (50, 20)
+    poses[::3, 2] = 99  # behind the camera
+    poses[:, 3] = 0.2
+    scene = e3d.Scene()
+    for z in (0, 300):
+        scene.add(e3d.InstancedMesh(e3d.box(), poses), translation=(0, 0, z))
+    camera = e3d.PerspectiveCamera(0.5), e3d.look_at((0, 0, 30), (0, 0, 0))
+    counts = {}
+    with Renderer((64, 64), backend=backend) as renderer:
+        for culling in ("none", "frustum", "tree"):
+            for _ in range(4):  # the tree of instances is made once they have stayed the same
+                stats = renderer.render(scene, camera, culling=culling).stats
+            assert (stats["objects"], stats["instances"]) == (2, 8000)
+            counts[culling] = [
+                stats[name] for name in ("draws", "instances_in_frustum", "instances_drawn")
+            ]
+    assert counts["none"][:2] == [2, 8000]
+    assert counts["frustum"] == counts["tree"] and counts["tree"][0] == 1
+    assert 10 < counts["tree"][2] <= counts["tree"][1] < 1500

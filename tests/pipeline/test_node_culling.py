@@ -222,7 +222,7 @@ def test_instances_that_do_not_show_are_left_out(kind, backend):
                     scene, camera, outputs=outputs, culling=culling, line_width=9, point_size=12
                 )
                 pictures.append([getattr(frame, name).tobytes() for name in outputs])
-                drawn.append(frame.stats["instances"])
+                drawn.append(frame.stats["instances_in_frustum"])
                 tested.append(frame.stats["boxes_tested"])
             assert pictures[0] == pictures[1] == pictures[2]
             assert frame.instance_id.max() > 0

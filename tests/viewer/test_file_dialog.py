@@ -74,19 +74,19 @@ def click_row(viewer, text):
 
 def test_it_lists_folders_then_models_of_the_folder_of_the_one_that_is_shown(viewer, tmp_path):
     viewer.draw()
-    before = viewer.frame.color.copy()
+    before = viewer.window.shown[-1]
     press(viewer, "O", control=True)
     assert names(viewer) == ["../", "parts/", "tests/", "a.OBJ", "b.obj", "cart.stl"]
     assert chosen(viewer) == "b.obj"
     assert viewer.panel.rows()[-1].detail == f"{len(TRIANGLE)} B"
     assert viewer.panel.heads(0)[0] == "Open a model"
     assert viewer.panel.heads(0)[1].endswith(str(tmp_path)[-60:])
-    assert (viewer.frame.color != before).any(axis=2).sum() > 0.2 * SIZE[0] * SIZE[1]
+    assert (viewer.window.shown[-1] != before).any(axis=2).sum() > 0.2 * SIZE[0] * SIZE[1]
     press(viewer, "O", control=True)
     assert viewer.panel is None
     viewer.messages.said = ""
     viewer.draw()
-    assert (viewer.frame.color == before).all()
+    assert (viewer.window.shown[-1] == before).all()
 
 
 def test_keys_choose_a_file_and_go_through_folders(viewer, tmp_path):

@@ -1,12 +1,11 @@
-"""The keys: each is bound once, each action exists, and each is in the help."""
+"""The keys: each is bound once, each action exists, and each is in the manual."""
 
 from pathlib import Path
 
 import pytest
 
 from engine3d.apps.viewer import actions as viewer_actions
-from engine3d.apps.viewer.help_panel import help_columns
-from engine3d.apps.viewer.keymap import BINDINGS, action_for
+from engine3d.apps.viewer.keymap import BINDINGS, TYPED_KEYS, action_for
 from engine3d.stage.views.fps import LOOKS, MOVES
 
 
@@ -38,23 +37,8 @@ def test_keypad_keys_and_digits_by_position_answer():
     assert action_for("Escape") is None
 
 
-def test_the_help_names_every_key():
-    rows = [row for column in help_columns() for row in column]
-    for binding in BINDINGS:
-        assert (" ".join(binding.keys), binding.help) in rows
-    assert any("drag" in key for key, _ in rows)
-
-
-def test_the_help_of_walking_names_the_keys_of_the_layout():
-    azerty = {"W": "Z", "A": "Q", "Q": "A"}
-    rows = dict(
-        row for column in help_columns(lambda key: azerty.get(key, key)) for row in column if row[0]
-    )
-    assert rows["Z Q S D"] == "walk" and rows["E A"].startswith("up, down")
-    assert rows["W"] == "wireframe: off, overlay, only"  # no key of AZERTY's WASD
-    assert not {"Z", "A", "S", "D", "E", "Q", "Left", "Up"} & rows.keys()
-    assert rows["PageDown"] == "next model of the folder"
-    assert not any("drag" in key for key in rows)
+def test_signs_that_are_typed_call_commands_that_are_bound():
+    assert {"/": action_for("/")} == TYPED_KEYS
 
 
 def test_walking_keys_are_positions_of_letters_and_arrows():

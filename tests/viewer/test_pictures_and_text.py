@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.apps.viewer.help_panel import draw_help, help_columns
+from engine3d.apps.viewer.controls.controls import SIDE_COLUMNS
 from engine3d.base.files.watch import FileWatch
 from engine3d.errors import FileAccessError
 from engine3d.io.output.animation_files import (
@@ -14,9 +14,11 @@ from engine3d.io.output.animation_files import (
     save_animation,
 )
 from engine3d.rendering.canvas import Canvas
-from engine3d.stage.overlays.draw_counts import count_names
+from engine3d.stage.overlays.draw_counts import ROWS, count_names
+from engine3d.stage.overlays.frame_statistics import statistics_lines
+from engine3d.stage.overlays.frame_times import FrameTimes
 from engine3d.stage.overlays.grid_lines import grid, grid_step
-from engine3d.stage.overlays.overlay import draw_axes, draw_block, statistics_lines
+from engine3d.stage.overlays.overlay import draw_axes, draw_block
 from engine3d.stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 
 
@@ -40,8 +42,15 @@ def test_a_block_darkens_its_corner_only(corner):
 def test_text_on_a_picture_of_a_pixel_is_clipped():
     canvas = Canvas((1, 1))
     draw_block(canvas, ["hello", "world"])
-    draw_help(canvas)
     draw_axes(canvas, Viewpoint(np.zeros(3), 1.0))
+
+
+def times(*frames):
+    """The times of recent frames: drawing, until shown and in the core, in seconds."""
+    found = FrameTimes()
+    for frame in frames or ((0.012, 0.02, 0.009),) * 2:
+        found.add(*frame)
+    return found
 
 
 def fits(canvas):
@@ -49,28 +58,6 @@ def fits(canvas):
     untouched = (canvas.pixels[..., :3] == 0).all(axis=2)
     rows, columns = untouched.all(axis=1), untouched.all(axis=0)
     return all(edge.all() for edge in (rows[:4], rows[-4:], columns[:4], columns[-4:]))
-
-
-@pytest.mark.parametrize("size", [(1280, 720), (800, 600), (640, 480), (320, 240)])
-def test_the_help_fits_the_window(size, monkeypatch):
-    """All of it, on as many pages as it takes."""
-    shown, text = [], Canvas.text
-
-    def note(canvas, x, y, string, color, **options):
-        shown.append(string)
-        text(canvas, x, y, string, color, **options)
-
-    monkeypatch.setattr(Canvas, "text", note)
-    pages = draw_help(Canvas(size))
-    assert (pages == 1) == (size[0] >= 1280)
-    shown.clear()
-    for page in range(pages):
-        canvas = Canvas(size)
-        assert draw_help(canvas, page) == pages
-        assert canvas.pixels[..., :3].any() and fits(canvas)
-    said = " ".join(shown).split()
-    words = " ".join(part for row in sum(help_columns(), []) for part in row).split()
-    assert set(words) <= set(said)
 
 
 @pytest.mark.parametrize("corner", ["top left", "bottom", "top right"])
@@ -96,7 +83,7 @@ def test_the_statistics_fit_small_windows(size):
     canvas = Canvas(size)
     stats = e3d.render(e3d.Scene(), size=(8, 8)).stats
     large = {name: 12_345_678 for name, value in stats.items() if isinstance(value, int)}
-    draw_block(canvas, statistics_lines(0.02, size, 16, stats | large))
+    draw_block(canvas, statistics_lines(times(), size, 16, stats | large))
     assert canvas.pixels.any() and fits(canvas)
 
 
@@ -110,14 +97,18 @@ def test_axes_point_where_the_camera_sees_them():
     assert np.ptp(y_rows) > np.ptp(y_columns)
 
 
-def test_statistics_name_the_rate_and_every_counter():
-    stats = {"triangles": 12, "ms_total": 1.5, "plan": ("colors",)}
-    text = "\n".join(statistics_lines(0.02, (320, 200), 4, stats))
-    assert "50.0 frames/s" in text
-    assert "320x200, 4 samples" in text
-    assert "triangles" in text and "12" in text and "1.500" in text
-    assert "plan" not in text
-    assert "0.0 frames/s" in statistics_lines(0.0, (1, 1), 1, {})[0]
+def test_statistics_name_the_rate_and_the_times_of_a_frame_which_add_up():
+    stats = {"ms_raster": 1.5, "pixels_shaded": 12_345, "backend": "avx2", "plan": ("colors",)}
+    lines = statistics_lines(times(), (320, 200), 4, stats, "camera at 1, 2, 3")
+    told = [line.split() for line in lines]
+    assert told[0] == ["50.0", "fps", "20.00", "ms"]
+    parts = [float(row[-2]) for row in told[:4]]
+    assert parts == [20.0, 9.0, 3.0, 8.0] and parts[0] == sum(parts[1:])
+    assert lines[4:6] == ["320x200, 4 samples per pixel", "camera at 1, 2, 3"]
+    assert ["raster", "1.50", "ms"] in told and ["pixels", "shaded", "12,345"] in told
+    assert "plan" not in "\n".join(lines)
+    alone = statistics_lines(times((0.012, 0.02, 0.009)), (1, 1), 1, {})
+    assert alone[0].split() == ["one", "frame", "20.00", "ms"]
 
 
 @pytest.mark.parametrize("radius", [1e-3, 0.37, 1.0, 5.0, 123.0, 1e6])
@@ -213,16 +204,12 @@ def test_a_file_watch_does_not_report_what_is_away_for_a_moment(tmp_path, monkey
 
 def test_the_table_of_counts_is_that_of_the_frame():
     frame = e3d.render(e3d.Scene(), size=(8, 8))
-    stats = {name: 1000 + k for k, name in enumerate(sorted(count_names()))} | {"draws": 3}
-    lines = statistics_lines(0.02, (8, 8), 1, {**frame.stats, **stats})
-    table = {line.split()[0]: line.split()[1:] for line in lines[3:6]}
-    assert lines[2].split() == ["total", "in", "frustum", "unoccluded", "drawn"]
-    for what in ("nodes", "clusters", "triangles"):
-        names = (what, f"{what}_in_frustum", f"{what}_unoccluded", f"{what}_drawn")
-        assert table[what] == [f"{stats[name]:,}" for name in names]
-    assert any(line.split()[:2] == ["draws", "3"] for line in lines[6:])
-    assert lines[6].startswith("culling all: 0 boxes tested, by the tree; then ")
-    entries = {*frame.stats} - {*stats, "plan", "boxes_tested"} | {"draws"}
-    shown = "\n".join(lines[7:])
-    assert all(name.replace("_", " ") + " " in shown for name in entries)
-    assert not any("in frustum" in line for line in lines[6:])
+    assert count_names() <= frame.stats.keys()
+    stats = {name: 1000 + k for k, name in enumerate(sorted(count_names()))}
+    lines = statistics_lines(times(), (8, 8), 1, {**frame.stats, **stats})
+    head = next(n for n, line in enumerate(lines) if "".join(line.split()) == "ofallinviewdrawn")
+    table = [line.rsplit(maxsplit=3) for line in lines[head + 1 : head + 1 + len(ROWS)]]
+    expected = [[what, *(f"{stats[name]:,}" for name in names)] for what, names in ROWS.items()]
+    assert table == expected
+    assert any(line.startswith("culling all: 0 boxes tested, by the tree; then ") for line in lines)
+    assert max(map(len, lines[head : head + 1 + len(ROWS)])) <= SIDE_COLUMNS

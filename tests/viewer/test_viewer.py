@@ -469,22 +469,6 @@ def test_files_that_are_dropped_together_show_together(tmp_path):
     assert "broken.obj:1: " in viewer.messages.said
 
 
-def test_help_goes_page_by_page_in_a_small_window():
-    viewer, window = make_viewer()
-    pages = []
-    for _ in range(100):
-        viewer.handle(key("H"))
-        if not viewer.help.shown:
-            break
-        viewer.draw()
-        pages.append(window.shown[-1].tobytes())
-    assert not viewer.help.shown
-    assert len(set(pages)) == len(pages) == viewer.help.count > 1
-    viewer.handle(key("H"))
-    viewer.handle(key("H", shift=True))
-    assert not viewer.help.shown
-
-
 def test_texts_are_as_large_as_the_screen_is_fine():
     sizes = []
     for screen, given in ((1, None), (2, None), (1, 2), (2, 1)):

@@ -14,11 +14,13 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
     int32_t last = -1;
     int64_t nodes = 0;
     stats->draws = frame->draw_count;
+    stats->instances = 0;
     stats->clusters = stats->triangles = 0;
     for (int32_t d = 0; d < frame->draw_count; d++) {
         const e3d_draw *draw = &frame->draws[d];
         stats->clusters += (int64_t)draw->mesh->cluster_count * draw->instances;
         stats->triangles += (int64_t)draw->mesh->desc.faces_count * draw->instances;
+        stats->instances += draw->instances;
         if (draw->pose_kind == E3D_POSE_NODES)
             nodes += draw->instances;
         else if (draw->instances && draw->node_id != last) {
@@ -27,8 +29,24 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
         }
     }
     stats->nodes_unoccluded = stats->nodes_drawn = nodes;
+    stats->instances_drawn = stats->instances;
     stats->clusters_in_frustum = stats->clusters_unoccluded = stats->clusters_drawn = stats->clusters;
     stats->triangles_in_frustum = stats->triangles_unoccluded = stats->triangles_drawn = stats->triangles;
+}
+
+/* Counts the instances of which anything shows; lines and points count, wherever they are. */
+static int64_t count_instances(const e3d_draws *draws, const uint8_t *all)
+{
+    int64_t drawn = 0;
+    for (int32_t d = 0; d < draws->count; d++) {
+        const e3d_draw_state *state = &draws->states[d];
+        if (state->units)
+            drawn += state->draw->instances;
+        else
+            for (int32_t i = 0; i < state->draw->instances; i++)
+                drawn += all[state->instance_base + i] & E3D_MARK_DRAWN ? 1 : 0;
+    }
+    return drawn;
 }
 
 /* The marks of one entry; `all` are those of all instances. */
@@ -92,7 +110,6 @@ static void add_worker(e3d_stats *stats, const e3d_worker *worker, int32_t threa
 void e3d_count(const e3d_prepared *pass, const e3d_renderer *renderer, e3d_stats *stats)
 {
     e3d_count_submitted(pass->frame, stats);
-    stats->instances = pass->draws->instance_count;
     stats->nodes_unoccluded = stats->nodes_drawn = 0;
     stats->clusters_unoccluded = stats->clusters_drawn = stats->triangles_unoccluded = stats->triangles_drawn = 0;
     for (int32_t t = 0; t < renderer->threads; t++)
@@ -100,6 +117,7 @@ void e3d_count(const e3d_prepared *pass, const e3d_renderer *renderer, e3d_stats
     stats->clusters_in_frustum = stats->clusters_unoccluded + stats->clusters_occluded;
     stats->triangles_in_frustum = stats->triangles_unoccluded + stats->triangles_occluded;
     count_nodes(pass->draws, renderer->marks.data, stats);
+    stats->instances_drawn = count_instances(pass->draws, renderer->marks.data);
     stats->threads = renderer->threads;
     stats->tiles = (int32_t)e3d_tile_count(pass->view);
     stats->backend = renderer->backend;

@@ -16,6 +16,7 @@ from ...stage.overlays.theme import THEMES
 from ...stage.played_clips import play_clips
 from ...stage.views.viewpoint import QUARTER_TURN, UP_DIRECTIONS
 from .file_dialog import FolderPanel, RecentPanel
+from .help_panel import CommandPanel
 from .list_panels import MaterialPanel, ObjectPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
@@ -26,6 +27,9 @@ from .tools.section_panel import SectionPanel
 SAMPLES = (1, 4, 16)  # available with both supersampling and multisampling
 STATISTICS = (None, "short", "long")
 LINE_WIDTHS = (1.0, 16.0)
+#: Speeds of the animation, and the share of it by which keys move its time.
+SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
+TIME_SHARE = 1 / 50
 #: The angle by which a key turns the camera.
 ORBIT_STEP = math.radians(7.5)
 #: What each culling method omits.
@@ -225,9 +229,11 @@ def cycle_culling(viewer, step: int) -> None:
 
 
 def freeze_culling(viewer, step: int) -> None:
-    """Freeze culling at this view, and the counters, until the key is released."""
-    viewer.view_renderer.freeze_culling(viewer.view)
-    viewer.say("culling and counting as from here, while C is held")
+    """Freeze culling at this view, and the counters, until the key is released; or end that."""
+    is_frozen = viewer.view_renderer.culling.camera is not None
+    viewer.view_renderer.freeze_culling(None if is_frozen else viewer.view)
+    said = "for each view" if is_frozen else "as from here, while C is held"
+    viewer.say(f"culling and counting {said}")
 
 
 def toggle_playing(viewer, step: int) -> None:
@@ -254,6 +260,42 @@ def cycle_animations(viewer, step: int) -> None:
         if chosen < 0
         else f"animation {chosen}: {list(viewed.scene.animations)[chosen]}"
     )
+
+
+def _moving(step_sign: int):
+    """Return an action that moves the time of an animation."""
+
+    def move(viewer, step: int) -> None:
+        viewed = viewer.view_renderer.viewed
+        if viewed.update is None:
+            viewer.say("nothing moves by itself here")
+            return
+        moved = viewer.time + step_sign * TIME_SHARE * viewed.period
+        viewer.time = moved % viewed.period
+        viewer.say(f"{viewer.time:.2f} of {viewed.period:.2f} s")
+
+    return move
+
+
+later, earlier = _moving(1), _moving(-1)
+
+
+def _speeding(step_sign: int):
+    """Return an action that changes the speed of the animation."""
+
+    def change(viewer, step: int) -> None:
+        faster = [speed for speed in SPEEDS if speed > viewer.speed]
+        slower = [speed for speed in SPEEDS if speed < viewer.speed]
+        if step_sign > 0:
+            viewer.speed = faster[0] if faster else SPEEDS[-1]
+        else:
+            viewer.speed = slower[-1] if slower else SPEEDS[0]
+        viewer.say(f"speed: {viewer.speed:g}×")
+
+    return change
+
+
+play_faster, play_slower = _speeding(1), _speeding(-1)
 
 
 def toggle_grid(viewer, step: int) -> None:
@@ -339,8 +381,14 @@ def load_again(viewer, step: int) -> None:
 
 
 def toggle_help(viewer, step: int) -> None:
-    """Toggle the help; in a small window, show it page by page."""
-    viewer.help.turn(step)
+    """Toggle the list of all commands."""
+    viewer.panel = None if isinstance(viewer.panel, CommandPanel) else CommandPanel(viewer)
+
+
+def toggle_controls(viewer, step: int) -> None:
+    """Toggle the bar, the ball of axes and the time line."""
+    viewer.controls.shown = not viewer.controls.shown
+    viewer.say(f"bar, ball and time line: {'on' if viewer.controls.shown else 'off'}")
 
 
 def toggle_fullscreen(viewer, step: int) -> None:
@@ -349,11 +397,12 @@ def toggle_fullscreen(viewer, step: int) -> None:
 
 
 def save_screenshot(viewer, step: int) -> None:
-    """Write the frame, without help and messages, to a numbered PNG in the current folder."""
+    """Write a frame of the window's size, and nothing over it, to a numbered PNG in the folder."""
     path = numbered_path(
         Path.cwd(), f"{Path(viewer.view_renderer.viewed.title).stem}-screenshot", ".png"
     )
     viewer.view_renderer.samples = viewer.sampling.at_rest()
+    viewer.view_renderer.resize(viewer.window.size)
     try:
         viewer.view_renderer.draw(viewer.view, viewer.time).save(path)
     except OSError as error:

@@ -12,73 +12,28 @@ from typing import TYPE_CHECKING
 from ...base.files.folder_listing import Item, list_folder
 from ...errors import printable
 from ..desktop.recent_files import RecentFiles
-from .list_panels import Panel, Row
+from .filtered_panel import FilteredPanel
+from .list_panels import Row
 from .model_files import MODEL_EXTENSIONS
 
 if TYPE_CHECKING:
     from .opened_files import Opening
-    from .state import ViewerState
+    from .viewer import Viewer
 
 COLUMNS, ROWS = 72, 16
 _HINT = "Enter, click: open   Esc: close   type: filter   Tab: "
 UP = ".."
 
 
-class _FilePanel(Panel):
-    """A filtered list of paths, chosen by keys or clicks."""
+class _FilePanel(FilteredPanel):
+    """A filtered list of paths."""
 
     corner = "middle"
     least_columns, most_columns, least_rows = COLUMNS, COLUMNS, ROWS
 
-    def __init__(self, viewer: ViewerState, opening: Opening):
+    def __init__(self, viewer: Viewer, opening: Opening):
         super().__init__(viewer)
         self._opening = opening
-        self.filter = ""
-        self.chosen = 0
-
-    def heads(self, left_out: int) -> list[str]:
-        more = f"  ({len(self.rows())}, wheel: more)" if left_out else ""
-        return [self.title + more, f"filter: {self.filter}_"]
-
-    def key(self, event) -> bool:
-        """Handle all keys but those with Ctrl and the window's own, such as F11."""
-        last = max(0, len(self.rows()) - 1)
-        moves = {"Up": -1, "Down": 1, "PageUp": -self._fit, "PageDown": self._fit}
-        moves |= {"Home": -last, "End": last}
-        if event.control:
-            return False
-        if event.key in moves:
-            self.chosen = min(max(0, (self.chosen or 0) + moves[event.key]), last)
-            self._follows = True
-        elif event.key in ("Return", "Enter", "Keypad Enter"):
-            self._press_chosen()
-        elif event.key == "Backspace":
-            self._rub_out()
-        elif event.key == "Tab":
-            self._change_list()
-        elif not super().key(event):
-            typed = len(event.key) == 1 or event.key == "Space" or event.key.startswith("Keypad")
-            return typed  # its text arrives as a separate event
-        self.viewer.redraw()
-        return True
-
-    def type(self, text: str) -> None:
-        self.set_filter(self.filter + printable(text))
-
-    def set_filter(self, text: str) -> None:
-        """Show only names that contain a text."""
-        self.filter, self.chosen, self._follows = text, 0, True
-        self.viewer.redraw()
-
-    def _press_chosen(self) -> None:
-        if self.chosen is not None and self.chosen < len(self.rows()):
-            self.press(self.chosen, alone=False)
-
-    def _rub_out(self) -> None:
-        self.set_filter(self.filter[:-1])
-
-    def _change_list(self) -> None:
-        raise NotImplementedError
 
     def _open(self, path: str) -> None:
         self.close()
@@ -90,7 +45,7 @@ class FolderPanel(_FilePanel):
 
     hint = _HINT + "opened before"
 
-    def __init__(self, viewer: ViewerState, opening: Opening):
+    def __init__(self, viewer: Viewer, opening: Opening):
         super().__init__(viewer, opening)
         shown = opening.files.first()
         self._go(os.path.dirname(shown) if shown else os.getcwd())
@@ -121,7 +76,7 @@ class FolderPanel(_FilePanel):
 
     def set_filter(self, text: str) -> None:
         """Show only names that contain a text; a folder name that ends with / opens it."""
-        super().set_filter(text)
+        self.filter, self._follows = text, True
         path = os.path.join(self.folder, os.path.expanduser(text))
         if text.endswith("/") and os.path.isdir(path):
             self._go(os.path.normpath(path))
@@ -131,6 +86,7 @@ class FolderPanel(_FilePanel):
         above = Item(UP, os.path.dirname(self.folder), True, 0, 0.0)
         self._items = found if text else (above, *found)
         self.chosen = 0 if text or not found else 1
+        self.viewer.redraw_controls()
 
     def rows(self) -> list[Row]:
         return [
@@ -161,7 +117,7 @@ class RecentPanel(_FilePanel):
     title = "Opened before"
     hint = _HINT + "folders"
 
-    def __init__(self, viewer: ViewerState, opening: Opening):
+    def __init__(self, viewer: Viewer, opening: Opening):
         super().__init__(viewer, opening)
         self._all = RecentFiles().paths()
 

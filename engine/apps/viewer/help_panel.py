@@ -1,202 +1,127 @@
-"""The help over the picture: keys and gestures, in columns or pages.
+"""The list of all commands: with their keys and present values, to search, choose and click.
 
-In: a `Canvas` over the frame's pixels and the number of a page. Out: the same pixels, drawn on.
+In: a viewer, typed text, keys and clicks. Out: the commands of the mode one is in, called. The bar
+opens it below a button with the commands of one theme.
 """
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Callable
-from typing import TypeAlias
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
-from ...rendering.fonts.font import Font
-from ...stage.overlays.lettering import text_font
-from ...stage.overlays.overlay import PADDING, place, text_scale
-from ...stage.overlays.theme import DARK, Theme
 from ...stage.views.fps import LOOKS, MOVES
-from .keymap import GESTURES, SECTIONS, WALKING, WALKING_GESTURES
+from .filtered_panel import FilteredPanel
+from .keymap import GESTURES, SECTIONS, WALKING, WALKING_GESTURES, Binding
+from .list_panels import Row
 
-#: A row is a key and its action; titles and empty rows have no second part.
-Row = tuple[str, str]
-GAP: Row = ("", "")
-#: Returns what the key at a position of a US keyboard types.
-KeyAt: TypeAlias = Callable[[str], str]
-#: The titles of the sections in each of three columns.
-_COLUMNS = (
-    ("Walking", "Drawing"),
-    ("View", "Mouse"),
-    ("Overlays", "Inspection", "Files", "Window"),
-)
-#: As wide as the gap between a key and its action, and that between two columns of the help.
-KEY_GAP, GUTTER = "nn", "nnn"
+if TYPE_CHECKING:
+    from .viewer import Viewer
+
+_HINT = "Enter, click: do it   Shift, right click: backwards   Esc: close"
+_SHORT_HINT = "click: do it   Esc: close"
 
 
-class HelpPages:
-    """Whether the help is shown, and its page.
+class _Entry(NamedTuple):
+    """A row of the list, and what it does; gestures and headings do nothing."""
 
-    Attributes
-    ----------
-    shown : bool
-    page, count : int
-        From 0 on, and how many there were when it was drawn last.
-    """
-
-    def __init__(self) -> None:
-        self.shown, self.page, self.count = False, 0, 1
-
-    def turn(self, step: int) -> None:
-        """Show the help, or its next or previous page; close it after the last one."""
-        page = self.page + step if self.shown else 0
-        self.shown = 0 <= page < self.count or not self.shown
-        self.page = page
+    row: Row
+    binding: Binding | None = None
 
 
-def help_sections(key_at: KeyAt | None = None) -> list[list[Row]]:
-    """Return the sections of the help, each a list of rows; the first row is its title.
+class CommandPanel(FilteredPanel):
+    """A list of commands.
 
     Parameters
     ----------
-    key_at : callable, optional
-        Given while one walks: it returns what the key at a position of a US keyboard types. Keys
-        that walk have no other meaning then.
+    viewer : Viewer
+    section : str, optional
+        The only theme to list; by default all are.
+    left : int, optional
+        The column of pixels below which the list hangs, as a menu that a click beside it closes.
     """
-    taken = set() if key_at is None else {key_at(position) for position in (*MOVES, *LOOKS)}
-    sections = []
-    for title, bindings in SECTIONS.items():
-        rows = [
-            (" ".join(key for key in one.keys if key not in taken), one.help) for one in bindings
+
+    title = "Commands"
+    hint = _HINT
+    corner = "top left"
+    most_columns = 72
+
+    def __init__(self, viewer: Viewer, section: str = "", left: int | None = None):
+        super().__init__(viewer)
+        self.section, self._left = section, left
+        self.closes_beside = left is not None
+        if section:
+            self.title, self.hint = section, _SHORT_HINT
+        self.set_filter("")
+
+    def place(self, canvas, width: int, height: int) -> tuple[int, int]:
+        if self._left is None:
+            return super().place(canvas, width, height)
+        return max(min(self._left, canvas.width - width), 0), 0
+
+    def heads(self, left_out: int) -> list[str]:
+        if not self.section:
+            return super().heads(left_out)
+        return [f"filter: {self.filter}_"] if self.filter else []
+
+    def rows(self) -> list[Row]:
+        return [entry.row for entry in self._entries()]
+
+    def choices(self) -> list[int]:
+        """Return the numbers of the rows of commands."""
+        return [number for number, entry in enumerate(self._entries()) if entry.binding is not None]
+
+    def press(self, number: int, alone: bool) -> None:
+        binding = self._entries()[number].binding
+        if binding is None:
+            return
+        self.chosen = number
+        if binding.value is None:
+            self.close()
+        self.viewer.perform(binding.action, -1 if alone else 1)
+
+    def lines(self) -> list[str]:
+        """Return the part of the list around the chosen row that fits a terminal."""
+        heads, rows = self.heads(0), super().lines()[len(self.heads(0)) : -1]
+        room = max(self.viewer.window.text_room[1] - len(heads) - 1, 1)
+        first = max(0, min((self.chosen or 0) - room // 2, len(rows) - room))
+        marked = [
+            ("> " if number == self.chosen else "  ") + row for number, row in enumerate(rows)
         ]
-        sections.append([(title, ""), *(row for row in rows if row[0])])
-    if key_at is None:
-        return [*sections, [("Mouse", ""), *GESTURES]]
-    walking = [(" ".join(map(key_at, positions)), text) for positions, text in WALKING]
-    return [[("Walking", ""), *walking, *WALKING_GESTURES], *sections]
+        return [*heads, *marked[first : first + room], self.hint]
 
+    def _entries(self) -> list[_Entry]:
+        """Return the entries that the filter leaves, below the headings of their themes."""
+        found: list[_Entry] = []
+        for title, entries in self._sections():
+            kept = [entry for entry in entries if self._keeps(title, entry.row)]
+            if kept and not self.section:
+                found.append(_Entry(Row(title, is_title=True)))
+            found += kept
+        return found
 
-def help_columns(key_at: KeyAt | None = None) -> list[list[Row]]:
-    """Return the help in three columns; parameters as of `help_sections`."""
-    sections = {section[0][0]: section for section in help_sections(key_at)}
-    return [
-        [row for title in column if title in sections for row in (*sections[title], GAP)][:-1]
-        for column in _COLUMNS
-    ]
+    def _keeps(self, title: str, row: Row) -> bool:
+        text = f"{title} {row.text} {row.key} {row.detail}".casefold()
+        return all(word in text for word in self.filter.casefold().split())
 
+    def _sections(self) -> Iterator[tuple[str, list[_Entry]]]:
+        walks = self.viewer.walker is not None
+        if walks and not self.section:
+            yield "Walking", self._walking()
+        taken = {self.viewer.window.key_at(key) for key in (*MOVES, *LOOKS)} if walks else set()
+        for title, bindings in SECTIONS.items():
+            if self.section in ("", title):
+                yield title, [self._command(binding, taken) for binding in bindings]
+        if not walks and not self.section:
+            yield "Mouse", [_Entry(Row(text, key=key)) for key, text in GESTURES]
 
-def help_lines(
-    columns: int, rows: int, page: int = 0, key_at: KeyAt | None = None
-) -> tuple[list[str], int]:
-    """Return one page of the help as lines of text, and how many pages there are."""
-    pages = _pages(help_sections(key_at), _Characters(), columns, rows)
-    shown = pages[min(page, len(pages) - 1)]
-    indent = _indent(shown, _Characters())
-    lines = [f"{key:{indent}}{text}" if text else key for key, text in shown]
-    return [*lines, _more(page, len(pages))], len(pages)
+    def _command(self, binding: Binding, taken: set[str]) -> _Entry:
+        """Return the entry of a command, with the keys that have no other meaning."""
+        value, is_lit = binding.value(self.viewer) if binding.value is not None else ("", False)
+        keys = " ".join(key for key in binding.keys if key not in taken)
+        return _Entry(Row(binding.help, value, key=keys, is_lit=is_lit), binding)
 
-
-class _Characters:
-    """The measures of a terminal: characters."""
-
-    def width(self, text: str) -> int:
-        return len(text)
-
-    def wrapped(self, text: str, width: int) -> list[str]:
-        return textwrap.wrap(text, width)
-
-
-def draw_help(
-    canvas,
-    page: int = 0,
-    scale: int | None = None,
-    theme: Theme = DARK,
-    key_at: KeyAt | None = None,
-) -> int:
-    """Draw keys and gestures on a block in the middle.
-
-    Parameters
-    ----------
-    canvas : Canvas
-        Over the frame.
-    page : int
-        Which part, from 0, where not all of it fits.
-    scale : int, optional
-        Factor on the font's size; by default what suits the picture.
-    theme : Theme
-    key_at : callable, optional
-        As of `help_sections`.
-
-    Returns
-    -------
-    int
-        How many pages there are.
-    """
-    font = text_font(scale or text_scale(canvas))
-    inset = 5 * PADDING
-    room, rows = canvas.width - inset, (canvas.height - inset) // font.line_height
-    columns = help_columns(key_at)
-    if _whole_width(columns, font) <= room and max(map(len, columns)) <= rows:
-        _draw_columns(canvas, columns, font, theme)
-        return 1
-    pages = _pages(help_sections(key_at), font, room, rows)
-    page = min(page, len(pages) - 1)
-    _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], font, theme)
-    return len(pages)
-
-
-def _more(page: int, count: int) -> str:
-    return f"{page + 1} of {count}; H: " + ("more" if page + 1 < count else "close")
-
-
-def _pages(
-    sections: list[list[Row]], ruler: Font | _Characters, room: int, rows: int
-) -> list[list[Row]]:
-    """Return the help as pages of at most ``rows`` - 1 rows, as wide as the room."""
-    rows, pages = max(rows - 1, 2), []
-    for title, *entries in sections:
-        indent = _indent(entries, ruler)
-        page = [title]
-        for key, text in entries:
-            lines = ruler.wrapped(text, max(room - indent, 1))
-            if len(page) + len(lines) > rows and len(page) > 1:
-                pages.append(page)
-                page = [title]
-            page += zip([key, *[""] * (len(lines) - 1)], lines, strict=True)
-        if pages and len(pages[-1]) + 1 + len(page) <= rows:
-            pages[-1] += [GAP, *page]
-        else:
-            pages.append(page)
-    return pages
-
-
-def _indent(rows: list[Row], ruler: Font | _Characters) -> int:
-    keys = [ruler.width(key) for key, text in rows if text]
-    return max(keys) + ruler.width(KEY_GAP) if keys else 0
-
-
-def _widths(columns: list[list[Row]], font: Font) -> list[int]:
-    """Return the width of each column in pixels."""
-    return [
-        max(
-            _indent(column, font) + font.width(text) if text else font.width(key)
-            for key, text in column
-        )
-        for column in columns
-    ]
-
-
-def _whole_width(columns: list[list[Row]], font: Font) -> int:
-    return sum(_widths(columns, font)) + font.width(GUTTER) * (len(columns) - 1)
-
-
-def _draw_columns(canvas, columns: list[list[Row]], font: Font, theme: Theme) -> None:
-    width = _whole_width(columns, font) + 4 * PADDING
-    height = font.line_height * max(map(len, columns)) + 4 * PADDING
-    left, top = place(canvas, width, height, "middle")
-    canvas.rectangle(left, top, width, height, theme.block)
-    x = left + 2 * PADDING
-    for column, column_width in zip(columns, _widths(columns, font), strict=True):
-        indent = _indent(column, font)
-        for row, (key, text) in enumerate(column):
-            y = top + 2 * PADDING + row * font.line_height
-            canvas.text(x, y, key, theme.key if text else theme.title, font=font)
-            canvas.text(x + indent, y, text, theme.text, font=font)
-        x += column_width + font.width(GUTTER)
+    def _walking(self) -> list[_Entry]:
+        """Return the keys of walking, as the keyboard's layout names them."""
+        key_at = self.viewer.window.key_at
+        rows = [(" ".join(map(key_at, positions)), text) for positions, text in WALKING]
+        return [_Entry(Row(text, key=key)) for key, text in (*rows, *WALKING_GESTURES)]

@@ -7,14 +7,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...rendering.canvas import Canvas
 from ...rendering.fonts.fitting import most_kept
 from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import MARGIN, PADDING, place
 from ...stage.overlays.theme import Theme
+from .kept_drawing import KeptDrawing
 
 if TYPE_CHECKING:
-    from .state import ViewerState
+    from .viewer import Viewer
 
 #: Maximum width of a list, in halves of the font's size: about characters.
 MOST_COLUMNS = 44
@@ -26,10 +28,23 @@ HIDDEN, SHOWN = "[ ]", "[x]"
 
 
 class Row(NamedTuple):
-    """A line of a panel: its left and right text."""
+    """A line of a panel.
+
+    Attributes
+    ----------
+    text, detail : str
+        On the left and on the right.
+    key : str
+        Before the detail, aligned with those of other rows.
+    is_title, is_lit : bool
+        Whether it is a heading, and whether its detail is lit up.
+    """
 
     text: str
     detail: str = ""
+    key: str = ""
+    is_title: bool = False
+    is_lit: bool = False
 
 
 class Panel:
@@ -37,7 +52,7 @@ class Panel:
 
     Parameters
     ----------
-    viewer : ViewerState
+    viewer : Viewer
         What a click changes.
     """
 
@@ -48,13 +63,15 @@ class Panel:
     #: The row selected by keys, if keys select rows.
     chosen: int | None = None
 
-    def __init__(self, viewer: ViewerState):
+    def __init__(self, viewer: Viewer):
         self.viewer = viewer
         self._heads = 1
         self._follows = True
-        self._first = 0
+        self._first = self._count = 0
         self._fit = 1
         self._box = (0, 0, 0, 0)
+        self._kept = KeptDrawing()
+        self._widths: dict[Font, _Widths] = {}
         self._row_height = 1
 
     def rows(self) -> list[Row]:
@@ -67,47 +84,63 @@ class Panel:
 
     def heads(self, left_out: int) -> list[str]:
         """Return the lines above the rows; not all of them may fit."""
-        return [self.title + (f"  ({len(self.rows())}, wheel: more)" if left_out else "")]
+        return [self.title + self.more(left_out)]
 
-    def draw(self, canvas, scale: int, theme: Theme) -> None:
+    def more(self, left_out: int) -> str:
+        """Return a text about rows that do not fit."""
+        return f"  ({self._count}, wheel: more)" if left_out else ""
+
+    def draw(self, canvas, scale: float, theme: Theme) -> None:
         """Draw the rows that fit, from the first visible one."""
         font = text_font(scale)
         self._row_height = font.line_height
-        seen, heads, blank = self._fitting_rows(canvas)
-        wide = self._width([*heads, self.hint], seen, font)
-        wide = max(min(wide, canvas.width - 2 * MARGIN - 2 * PADDING), 1)
-        width = wide + 2 * PADDING
-        height = (len(heads) + len(seen) + blank + 1) * self._row_height + 2 * PADDING
-        left, top = place(canvas, width, height, self.corner)
+        shown, columns = self._shown(canvas, font)
+        width = columns.wide + 2 * PADDING
+        height = (len(shown) + 1) * self._row_height + 2 * PADDING
+        left, top = self.place(canvas, width, height)
         self._box = left, top, width, height
-        canvas.rectangle(left, top, width, height, theme.block)
-        if self.chosen is not None and 0 <= self.chosen - self._first < len(seen):
-            y = top + PADDING + (len(heads) + self.chosen - self._first) * self._row_height
-            bar = (*theme.title[:3], BAR_ALPHA)
-            canvas.rectangle(left, y, width, self._row_height, bar)
-        rows = [Row(head) for head in heads] + seen + [Row("")] * blank + [Row(self.hint)]
-        colors = [theme.title] * len(heads) + [theme.text] * (len(seen) + blank) + [theme.key]
-        for number, (row, color) in enumerate(zip(rows, colors, strict=True)):
-            x, y = left + PADDING, top + PADDING + number * self._row_height
-            text, detail = fitted(row, wide, font)
-            canvas.text(x, y, text, color, font=font)
-            canvas.text(x + wide - font.width(detail), y, detail, color, font=font)
+        bar = None if self.chosen is None else self.chosen - self._first + self._heads
+        shows = shown, columns, bar, self.hint, font, theme
+        onto = canvas.pixels[top:, left:]
+        self._kept.put(onto, (width, height), shows, lambda kept: _draw_list(kept, *shows))
 
-    def _width(self, lines: list[str], rows: list[Row], font: Font) -> int:
-        """Return the width of the list's texts in pixels, if there is room."""
-        gap, unit = font.width(GAP), round(font.size / 2)
-        widths = [font.width(row.text) + gap + font.width(row.detail) for row in rows]
-        wide = max([self.least_columns * unit, *map(font.width, lines), *widths])
-        return min(self.most_columns * unit, wide)
+    def _shown(self, canvas, font: Font) -> tuple[list[Row], _Columns]:
+        """Return the lines of the panel, but for the hint, and its columns."""
+        rows = self.rows()
+        seen, heads, blank = self._fitting_rows(canvas, rows)
+        columns = self._columns([*heads, self.hint], seen, rows, font)
+        most = canvas.width - 2 * MARGIN - 2 * PADDING
+        columns = columns._replace(wide=max(min(columns.wide, most), 1))
+        return [Row(head, is_title=True) for head in heads] + seen + [Row("")] * blank, columns
+
+    def place(self, canvas, width: int, height: int) -> tuple[int, int]:
+        """Return the top left pixel of the panel."""
+        return place(canvas, width, height, self.corner)
+
+    def _columns(self, lines: list[str], seen: list[Row], rows: list[Row], font: Font) -> _Columns:
+        """Return the widths of the list and its columns in pixels, if there is room."""
+        width = self._widths.setdefault(font, _Widths(font))
+        gap, unit = width[GAP], round(font.size / 2)
+        keys = max((width[row.key] for row in rows if row.key), default=0)
+        details = max((width[row.detail] for row in rows), default=0) if keys else 0
+        aside = keys + details + 2 * gap
+        widths = [
+            width[row.text] + (aside if keys else gap + width[row.detail])
+            for row in seen
+            if not row.is_title
+        ]
+        wide = max([self.least_columns * unit, *(width[line] for line in lines), *widths])
+        return _Columns(min(self.most_columns * unit, wide), keys, details)
 
     def lines(self) -> list[str]:
         """Return the list as lines of text."""
-        rows = [f"{row.text}  {row.detail}".rstrip() for row in self.rows()]
+        rows = ["  ".join(filter(None, (row.text, row.key, row.detail))) for row in self.rows()]
         return [*self.heads(0), *rows, self.hint]
 
-    def _fitting_rows(self, canvas) -> tuple[list[Row], list[str], int]:
+    def _fitting_rows(self, canvas, rows: list[Row]) -> tuple[list[Row], list[str], int]:
         """Return the rows that fit, the lines above them, and the number of blank ones below."""
-        rows, room = self.rows(), (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height
+        self._count = len(rows)
+        room = (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height
         self._heads = len(self.heads(0))
         self._fit = max(1, min(room - self._heads - 1, len(rows)))
         if self.chosen is not None and self._follows:
@@ -116,6 +149,9 @@ class Panel:
         seen = rows[self._first : self._first + self._fit]
         blank = max(0, min(self.least_rows, room - self._heads - 1) - len(seen))
         return seen, self.heads(len(rows) - len(seen)), blank
+
+    #: Whether a click beside it closes it.
+    closes_beside = False
 
     def covers(self, x: int, y: int) -> bool:
         """Return whether a pixel belongs to the panel."""
@@ -140,7 +176,7 @@ class Panel:
         """Handle the wheel."""
         self._first = max(0, self._first - round(steps))
         self._follows = False
-        self.viewer.redraw()
+        self.viewer.redraw_controls()
 
     def key(self, event) -> bool:
         """Handle a pressed key; return whether the panel used it."""
@@ -159,7 +195,6 @@ class Panel:
     def close(self) -> None:
         """Close the panel."""
         self.viewer.panel = None
-        self.viewer.redraw()
 
 
 class ObjectPanel(Panel):
@@ -192,14 +227,72 @@ def _row(entry) -> Row:
     return Row(f"{SHOWN if entry.shown else HIDDEN} {entry.name}", f"{entry.triangles:,}")
 
 
-def fitted(row: Row, width: int, font: Font) -> Row:
-    """Return a row that fits: the text cut at its end, the detail at its front."""
+class _Widths(dict[str, int]):
+    """The widths of texts in a font, each measured once."""
+
+    def __init__(self, font: Font) -> None:
+        super().__init__()
+        self._font = font
+
+    def __missing__(self, text: str) -> int:
+        self[text] = self._font.width(text)
+        return self[text]
+
+
+class _Columns(NamedTuple):
+    """The width of a list and, where rows have keys, of the columns of keys and of details."""
+
+    wide: int
+    keys: int
+    details: int
+
+
+def _draw_list(
+    canvas: Canvas,
+    rows: list[Row],
+    columns: _Columns,
+    bar: int | None,
+    hint: str,
+    font: Font,
+    theme: Theme,
+) -> None:
+    """Draw a list that fills a canvas: its rows, a bar behind one of them, and a hint."""
+    canvas.clear((*theme.block[:3], 255))
+    if bar is not None and 0 <= bar < len(rows):
+        color, y = (*theme.title[:3], BAR_ALPHA), PADDING + bar * font.line_height
+        canvas.rectangle(0, y, canvas.width, font.line_height, color)
+    y = PADDING
+    for row in rows:
+        _draw_row(canvas, (PADDING, y), row, columns, font, theme)
+        y += font.line_height
+    canvas.text(PADDING, y, font.fitted(hint, columns.wide), theme.key, font=font)
+
+
+def _draw_row(
+    canvas, at: tuple[int, int], row: Row, columns: _Columns, font: Font, theme: Theme
+) -> None:
+    x, y = at
+    right, wide, gap = row.detail, columns.wide, font.width(GAP)
+    if columns.keys:
+        keys_x = max(wide - columns.details - gap - columns.keys, wide // 3)
+        text = font.fitted(row.text, wide if row.is_title else max(keys_x - gap, 0))
+        canvas.text(x + keys_x, y, row.key, theme.key, font=font)
+        right = font.fitted(row.detail, max(wide - keys_x - columns.keys - gap, 0))
+    else:
+        text, right = fitted(row, wide, font)
+    canvas.text(x, y, text, theme.title if row.is_title else theme.text, font=font)
+    color = theme.title if row.is_lit else theme.text
+    canvas.text(x + wide - font.width(right), y, right, color, font=font)
+
+
+def fitted(row: Row, width: int, font: Font) -> tuple[str, str]:
+    """Return a row's texts that fit: the left one cut at its end, the right one at its front."""
     if not row.detail:
-        return Row(font.fitted(row.text, width))
+        return font.fitted(row.text, width), ""
     gap, detail = font.width(GAP), row.detail
     most = max(width - font.width(row.text) - gap, width // 3)
     if font.width(detail) > most:
         count = len(detail)
         kept = most_kept(lambda end: "…" + row.detail[count - end :], count, most, font.width)
         detail = "…" + detail[count - max(kept, 0) :]
-    return Row(font.fitted(row.text, max(width - font.width(detail) - gap, 0)), detail)
+    return font.fitted(row.text, max(width - font.width(detail) - gap, 0)), detail

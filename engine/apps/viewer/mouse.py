@@ -41,15 +41,19 @@ class Mouse:
 
     def button(self, event) -> None:
         """Handle a press or release of a button."""
+        panel = self._viewer.panel
+        if event.down and panel is not None and panel.covers(event.x, event.y):
+            self.release()
+            panel.click(event.x, event.y, event.shift or event.button != "left")
+            self.drag = "panel"
+            return
+        if self.drag == "panel" and not event.down:
+            self.release()
+            return
         if self._viewer.walker is not None:
             return
         if event.down:
             self.release()
-            panel = self._viewer.panel
-            if panel is not None and panel.covers(event.x, event.y):
-                panel.click(event.x, event.y, event.shift or event.button != "left")
-                self.drag = "panel"
-                return
             self.drag = _drag(event)
             return
         clicked = self.drag == "rotate" and not self._dragging
@@ -70,14 +74,16 @@ class Mouse:
     def motion(self, event) -> None:
         """Handle a motion of the mouse."""
         viewer = self._viewer
-        if viewer.walker is not None:
+        if self.drag == "panel":
+            if viewer.panel is not None:
+                viewer.panel.drag(event.x)
+        elif viewer.walker is not None:
+            if viewer.panel is not None:
+                return
             self.release()
             viewer.walker.look(event.dx, event.dy)
             viewer.walker.place(viewer.view)
             viewer.redraw()
-        elif self.drag == "panel":
-            if viewer.panel is not None:
-                viewer.panel.drag(event.x)
         elif self.drag is not None:
             self._travelled += abs(event.dx) + abs(event.dy)
             dx, dy = self._held_back[0] + event.dx, self._held_back[1] + event.dy
@@ -101,11 +107,11 @@ class Mouse:
     def wheel(self, event) -> None:
         """Handle the wheel."""
         viewer = self._viewer
-        if viewer.walker is not None:
-            viewer.walker.change_speed(event.steps)
-            return
         if viewer.panel is not None and viewer.panel.covers(event.x, event.y):
             viewer.panel.scroll(event.steps)
+            return
+        if viewer.walker is not None:
+            viewer.walker.change_speed(event.steps)
             return
         viewer.orbit.dolly(event.steps, (event.x, event.y), viewer.view_renderer.size)
         viewer.redraw()

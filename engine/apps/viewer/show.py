@@ -33,7 +33,7 @@ from ...stage.views.first_view import view_of_scene
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
 from .sampling import Sampling
-from .viewer import Viewer
+from .viewer import HINT, Viewer
 from .window import Window
 
 if TYPE_CHECKING:
@@ -147,7 +147,8 @@ def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] |
         view = view_of_scene(view_renderer)
         try:
             viewer = Viewer(view_renderer, window, view=view, sampling=Sampling())
-            viewer.say("H: help")
+            viewer.controls.shown = True
+            viewer.say(HINT)
             viewer.run()
         finally:
             if viewed.player is not None:

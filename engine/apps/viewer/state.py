@@ -7,6 +7,7 @@ In: user actions. Out: the changed state; the loop (`viewer.Viewer`) draws a fra
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,10 +20,12 @@ from ...stage.views.orbit import MIN_DISTANCE, OrbitController
 from ...stage.views.viewpoint import Viewpoint
 from ...stage.views.walkable_ground import told
 from ...stage.views.walking import GroundController, controller
-from .help_panel import HelpPages
 from .messages import Messages
 from .sampling import Sampling
 from .tools.inspector import Inspector
+
+if TYPE_CHECKING:
+    from .list_panels import Panel
 
 
 class ViewerState:
@@ -49,13 +52,11 @@ class ViewerState:
         The keys of walks that are down.
     fast : bool
         Whether one walks fast.
-    time : float
-        Of the animation, in seconds.
+    time, speed : float
+        Of the animation, in seconds, and how many of them pass in a second.
     playing, running : bool
         Whether it moves, and whether the window stays open.
     selected : RayHit or None
-    panel : Panel or None
-        The list over the picture; None where there is none.
     inspector : Inspector
         The section and the distance of the parts.
     """
@@ -76,16 +77,30 @@ class ViewerState:
         self.held_positions: set[str] = set()
         self.fast = False
         self.time = 0.0
+        self.speed = 1.0
         self.playing = view_renderer.viewed.plays
         self.statistics: str | None = None
-        self.help = HelpPages()
         self.running = True
         self.selected: RayHit | None = None
         self.messages = Messages()
         self.sampling = sampling or Sampling(view_renderer.samples)
-        self.panel = None
         self.inspector = Inspector(self)
+        self._panel: Panel | None = None
         self._changed = True
+        self._controls_changed = False
+
+    @property
+    def panel(self) -> Panel | None:
+        """The list over the picture, or None; assignable. One who walks gets the mouse back."""
+        return self._panel
+
+    @panel.setter
+    def panel(self, panel: Panel | None) -> None:
+        self._panel = panel
+        if self.walker is not None:
+            self.window.capture_mouse(panel is None)
+            self.held_positions.clear()
+        self.redraw_controls()
 
     @property
     def changed(self) -> bool:
@@ -95,6 +110,10 @@ class ViewerState:
     def redraw(self) -> None:
         """Request a new frame."""
         self._changed = True
+
+    def redraw_controls(self) -> None:
+        """Request that what lies over and beside the frame is drawn anew, but not the frame."""
+        self._controls_changed = True
 
     def say(self, message: str) -> None:
         """Show a message for a time that depends on its length."""
@@ -150,17 +169,18 @@ class ViewerState:
             self.walker = None
             self.say("orbiting")
         self.held_positions.clear()
+        self.panel = None
         self.window.capture_mouse(self.walker is not None)
 
     def _begin_walking(self) -> None:
         try:
             self.walker = controller(self.view_renderer, self.view)
-            said = "walking"
+            said = "flying"
         except Engine3DError as error:
             self.walker = FpsController(self.view, self.view_renderer.bounds)
             said = f"flying, as there is no ground: {error}"
         self.walker.place(self.view)
         if isinstance(self.walker, GroundController):
-            said += f"; {told(self.walker.grid)}"
+            said = f"walking; {told(self.walker.grid)}"
         keys = "".join(map(self.window.key_at, "WASD"))
         self.say(f"{said}; {keys}, mouse or arrows to look; Tab or Esc to leave")

@@ -10,8 +10,10 @@ from __future__ import annotations
 import math
 import time as clock
 
+from ...rendering.canvas import Canvas
+from ...stage.overlays.frame_statistics import short_statistics, statistics_lines
 from ...stage.overlays.frame_times import FrameTimes
-from ...stage.overlays.overlay import draw_block, short_statistics, statistics_lines
+from ...stage.overlays.overlay import draw_block
 from ...stage.overlays.selection_outline import (
     OUTLINE_OUTPUTS,
     WIDTH,
@@ -23,8 +25,9 @@ from ...stage.views.fps import LOOKS, MOVES
 from .. import events
 from . import actions as viewer_actions
 from .animation_bar import draw_bar
-from .help_panel import KeyAt, draw_help, help_lines
-from .keymap import REPEATED, action_for
+from .controls.controls import Controls
+from .controls.window_pixels import WindowPixels
+from .keymap import REPEATED, TYPED_KEYS, action_for
 from .model_files import ModelFiles
 from .mouse import Mouse
 from .opened_files import Opening
@@ -34,6 +37,8 @@ from .title_bar import TitleBar
 
 #: Sleep time of the idle loop, and interval of checks for file changes.
 IDLE_SECONDS = 0.25
+#: What is said first; it goes away by itself.
+HINT = "H, F1 or /: all commands"
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
 
@@ -59,6 +64,11 @@ class Viewer(ViewerState):
         Where the scene came from: it is loaded again when they change, if they are watched.
     sampling : Sampling, optional
         Chooses the samples per pixel; by default always as many as the renderer takes.
+
+    Attributes
+    ----------
+    controls : Controls
+        What is beside the picture; its attribute ``shown`` is False at first.
     """
 
     def __init__(
@@ -82,6 +92,9 @@ class Viewer(ViewerState):
         self.mouse = Mouse(self)
         self.frame_times = FrameTimes()
         self.opening = Opening(self, files or ModelFiles())
+        self.controls = Controls(self)
+        self._pixels = WindowPixels()
+        self._types_text = True
         self._title = TitleBar(window)
         self._last_turn = clock.monotonic()
         if walking:
@@ -112,6 +125,8 @@ class Viewer(ViewerState):
         drawn = (self.changed or rests) and self.running and not self.window.minimised
         if drawn:
             self.draw(self.sampling.in_motion() if self.changed else self.sampling.at_rest())
+        elif self._controls_changed and self.frame is not None and not self.window.minimised:
+            self._show(self._over_frame())
         idle = not self.lively
         name = self.view_renderer.viewed.title
         self._title.write(name, lambda: self.frame_times.text(idle), at_once=idle)
@@ -133,13 +148,13 @@ class Viewer(ViewerState):
 
     def advance(self, seconds: float) -> None:
         """Advance the time by ``seconds``: animation, walking, messages, file changes."""
-        if self.playing and not self.window.minimised:
-            self._play(seconds)
+        if self.playing and not self.controls.holds_time and not self.window.minimised:
+            self._play(seconds * self.speed)
         if self.walker is not None and self.walker.walk(self.held_positions, seconds, self.fast):
             self.walker.place(self.view)
             self.redraw()
         if self.messages.pass_by():
-            self.redraw()
+            self.redraw_controls()
         self.opening.look_for_changes()
 
     def _play(self, seconds: float) -> None:
@@ -159,66 +174,73 @@ class Viewer(ViewerState):
         """
         self.view_renderer.samples = samples or self.sampling.at_rest()
         start = clock.monotonic()
-        width, height = self.window.size
-        self.view_renderer.resize((width, height))
+        picture = self.controls.arrange().picture
+        self.view_renderer.resize((picture.width, picture.height))
         self._changed = False
         outputs = ("color",) if self.selected is None else OUTLINE_OUTPUTS
         self.frame = self.view_renderer.draw(self.view, self.time, outputs)
-        if not self.window.writes_text:
-            self._draw_overlays()
+        if self.selected is not None and not self.view_renderer.split:
+            draw_outline(self.frame, self.selected, round(WIDTH * self.controls.scale))
+        pixels = self._over_frame()
         drawn = clock.monotonic()
         self.sampling.add(self.view_renderer.samples, drawn - start)
-        self.window.present(self.frame.color)
+        self._show(pixels)
+        core = self.view_renderer.stats.get("ms_total", 0.0) / 1000
+        self.frame_times.add(drawn - start, clock.monotonic() - start, core)
+
+    def _show(self, pixels) -> None:
+        """Show the window's pixels."""
+        self._controls_changed = False
+        self.window.present(pixels)
         if self.window.writes_text:
             self.window.write(self._overlay_lines())
-        self.frame_times.add(drawn - start, clock.monotonic() - start)
 
-    def _draw_overlays(self) -> None:
-        canvas = self.frame.canvas()
-        scale = self.view_renderer.text_scale(canvas)
-        look = {"scale": scale, "theme": self.view_renderer.theme}
+    def _over_frame(self):
+        """Return the window's pixels: the last frame, what lies over it, the strips beside it."""
+        if self.window.writes_text:
+            return self.frame.color
+        layout = self.controls.layout
+        pixels, picture = self._pixels.with_picture(self.frame.color, layout)
+        self.controls.draw(pixels)
+        self._draw_overlays(Canvas(picture))
+        return pixels
+
+    def _draw_overlays(self, canvas: Canvas) -> None:
+        look = {"scale": self.controls.scale, "theme": self.view_renderer.theme}
+        layout = self.controls.layout
+        self.controls.draw_ball(canvas)
         if self.selected is not None:
-            if not self.view_renderer.split:
-                draw_outline(self.frame, self.selected, WIDTH * scale)
             draw_block(canvas, self._selection(), corner="bottom right", **look)
-        if self.help.shown:
-            self.help.count = draw_help(canvas, self.help.page, **look, key_at=self._walking_keys())
-        elif self.statistics:
-            draw_block(canvas, self._statistics(), is_table=self.statistics != "short", **look)
-        if self.panel is not None:
-            self.panel.draw(canvas, **look)
+        if self.statistics and layout.side is None and not self.controls.holds_line:
+            is_table = self.statistics != "short"
+            draw_block(canvas, self.statistics_lines(), is_table=is_table, **look)
         viewed = self.view_renderer.viewed
-        if viewed.player is not None:
+        if viewed.player is not None and layout.time is None:
             draw_bar(canvas, self.time / viewed.period, **look)
         draw_block(canvas, self.messages.lines(), corner="bottom", **look)
+        if self.panel is not None:
+            self.panel.draw(canvas, **look)
 
     def _overlay_lines(self) -> list[str]:
         """Return the overlays as lines, for a window that writes text."""
         lines = [] if self.selected is None else self._selection()
-        if self.help.shown:
-            page, self.help.count = help_lines(
-                *self.window.text_room, self.help.page, self._walking_keys()
-            )
-            lines += page
-        elif self.statistics:
-            lines += self._statistics()
+        if self.statistics:
+            lines += self.statistics_lines()
         if self.panel is not None:
             lines += self.panel.lines()
         return lines + self.messages.lines()
 
-    def _walking_keys(self) -> KeyAt | None:
-        return None if self.walker is None else self.window.key_at
-
     def _selection(self) -> list[str]:
         return selection_lines(self.selected, self.view_renderer.viewed.origin)
 
-    def _statistics(self) -> list[str]:
+    def statistics_lines(self) -> list[str]:
+        """Return the statistics of the last frame: a line, or all."""
         view_renderer = self.view_renderer
         if self.statistics == "short":
             return [short_statistics(self.frame_times, view_renderer.stats)]
         eye = ", ".join(f"{value:.4g}" for value in self.view.position())
         return statistics_lines(
-            self.frame_times.seconds,
+            self.frame_times,
             view_renderer.size,
             view_renderer.samples,
             view_renderer.stats,
@@ -236,14 +258,22 @@ class Viewer(ViewerState):
 
     def _key_down(self, event) -> None:
         self.fast = event.shift
+        self._types_text = True
         if self.panel is not None and self.panel.key(event):
             return
+        self._types_text = False  # what this key types is a command, perhaps one that opens a list
         if self.walker is not None and self._walk_key(event):
             return
         action = action_for(event.key, event.position, event.control, event.shift)
-        if action is not None and (not event.repeat or action in REPEATED):
-            getattr(viewer_actions, action)(self, -1 if event.shift else 1)
-            self.redraw()
+        if action is None:
+            self._types_text = True
+        elif not event.repeat or action in REPEATED:
+            self.perform(action, -1 if event.shift else 1)
+
+    def perform(self, action: str, step: int = 1) -> None:
+        """Call one of the `actions`, forwards or backwards, and draw what has become of it."""
+        getattr(viewer_actions, action)(self, step)
+        self.redraw()
 
     def _walk_key(self, event) -> bool:
         """Handle a key in walking mode; return whether it was one."""
@@ -263,8 +293,12 @@ class Viewer(ViewerState):
             self.fast = False
 
     def _typed(self, event) -> None:
+        if not self._types_text:
+            return
         if self.panel is not None:
             self.panel.type(event.text)
+        elif event.text in TYPED_KEYS and self.walker is None:
+            self.perform(TYPED_KEYS[event.text])
 
     def _redraw(self, event) -> None:
         self.view_renderer.screen_scale = self.window.scale  # it may have moved to another screen
@@ -278,6 +312,13 @@ class Viewer(ViewerState):
         self.held_positions.clear()
         self._unfreeze_culling()
         self.mouse.release()
+        self.controls.release()
+
+    def _mouse(self, event) -> None:
+        """Hand a mouse event to the controls or, if it is not for them, to the picture."""
+        passed = self.controls.take(event)
+        if passed is not None:
+            _MOUSE[type(event)](self.mouse, passed)
 
     def _dropped(self, event) -> None:
         self.opening.open(event.paths)
@@ -286,13 +327,19 @@ class Viewer(ViewerState):
         self.running = False
 
 
+_MOUSE = {
+    events.MouseButton: Mouse.button,
+    events.MouseMotion: Mouse.motion,
+    events.Wheel: Mouse.wheel,
+}
 _HANDLERS = {
     events.KeyDown: Viewer._key_down,
     events.KeyUp: Viewer._key_up,
     events.TextEntered: Viewer._typed,
-    events.MouseButton: lambda viewer, event: viewer.mouse.button(event),
-    events.MouseMotion: lambda viewer, event: viewer.mouse.motion(event),
-    events.Wheel: lambda viewer, event: viewer.mouse.wheel(event),
+    events.MouseButton: Viewer._mouse,
+    events.MouseMotion: Viewer._mouse,
+    events.Wheel: Viewer._mouse,
+    events.MouseLeft: lambda viewer, event: viewer.controls.leave(),
     events.Resized: Viewer._redraw,
     events.Exposed: Viewer._redraw,
     events.Restored: Viewer._redraw,

@@ -7,32 +7,41 @@ from __future__ import annotations
 
 from typing import Any
 
+#: What `--verbose` counts at each stage of culling.
 COUNTED = ("nodes", "clusters", "triangles")
-#: Titles of the columns, and suffixes of their counters.
 STAGES = {
     "total": "",
     "in frustum": "_in_frustum",
     "unoccluded": "_unoccluded",
     "drawn": "_drawn",
 }
+#: The columns of the table, and of each row the counters in them. A draw call draws a node with all
+#: of its instances; then batching joins the nodes of a mesh.
+COLUMNS = ("of all", "in view", "drawn")
+ROWS = {
+    "objects": ("objects", "nodes_in_frustum", "nodes_drawn"),
+    "instances": ("instances", "instances_in_frustum", "instances_drawn"),
+    "triangles": ("triangles", "triangles_in_frustum", "triangles_drawn"),
+    "clusters": ("clusters", "clusters_in_frustum", "clusters_drawn"),
+    "draw calls": ("objects", "draws_unbatched", "draws"),
+}
 
 
 def count_names() -> set[str]:
     """Return the names of all counters of the table."""
-    return {what + ending for what in COUNTED for ending in STAGES.values()}
+    return {name for row in ROWS.values() for name in row}
 
 
 def count_table(stats: dict[str, Any]) -> list[str]:
-    """Return the table: a header line, and a line for each counter."""
-    rows = [f"{'':<9}" + "".join(f"{stage:>12}" for stage in STAGES)]
-    for what in COUNTED:
-        numbers = (stats[what + ending] for ending in STAGES.values())
-        rows.append(f"{what:<9}" + "".join(f"{number:>12,}" for number in numbers))
+    """Return the table: a header line, and a line for each kind of things."""
+    rows = [f"{'':<10}" + "".join(f"{column:>12}" for column in COLUMNS)]
+    for what, names in ROWS.items():
+        rows.append(f"{what:<10}" + "".join(f"{stats[name]:>12,}" for name in names))
     return rows
 
 
 def told_tests(stats: dict[str, Any], culling: str) -> str:
-    """Return a sentence on how many tests found the nodes in view."""
+    """Return a sentence on how many tests found the objects in view."""
     tested = stats["boxes_tested"]
     boxes = f"{tested:,} box{'' if tested == 1 else 'es'} tested"
     how = {

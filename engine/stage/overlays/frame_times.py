@@ -42,18 +42,19 @@ class FrameRate:
 class FrameTimes:
     """Durations of the recent frames.
 
-    `seconds` counts the wait for the screen's refresh, `drawing_seconds` doesn't.
+    `seconds` counts the wait for the screen's refresh, `drawing_seconds` doesn't, and
+    `core_seconds` only what the C core does of the drawing.
     """
 
     def __init__(self) -> None:
-        self._frames: deque[tuple[float, float, float]] = deque(maxlen=RECENT_FRAMES)
+        self._frames: deque[tuple[float, float, float, float]] = deque(maxlen=RECENT_FRAMES)
 
-    def add(self, drawing: float, shown: float) -> None:
-        """Add a frame that took ``drawing`` seconds to draw, ``shown`` until it was shown."""
+    def add(self, drawing: float, shown: float, core: float = 0.0) -> None:
+        """Add a frame that took so many seconds to draw, until it was shown, and in the core."""
         now = time.monotonic()
         while self._frames and self._frames[0][0] < now - RECENT_SECONDS:
             self._frames.popleft()
-        self._frames.append((now, drawing, shown))
+        self._frames.append((now, drawing, shown, core))
 
     @property
     def count(self) -> int:
@@ -69,6 +70,11 @@ class FrameTimes:
     def drawing_seconds(self) -> float:
         """Mean time to draw a recent frame; 0 if there is none."""
         return self._mean(1)
+
+    @property
+    def core_seconds(self) -> float:
+        """Mean time of a recent frame in the core; 0 if there is none."""
+        return self._mean(3)
 
     def _mean(self, column: int) -> float:
         frames = self._frames

@@ -1,4 +1,4 @@
-"""Text and marks over the picture: statistics, metadata, messages, axes.
+"""Text and marks over the picture: blocks of lines, axes.
 
 In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text is on translucent
 blocks in the corners; lines wider than the picture are wrapped.
@@ -6,14 +6,9 @@ blocks in the corners; lines wider than the picture are wrapped.
 
 from __future__ import annotations
 
-from itertools import zip_longest
-from typing import Any
-
 from ...rendering.canvas import Canvas
 from ...rendering.fonts.font import Font
 from ..views.camera_view import AnyView
-from .draw_counts import count_names, count_table, told_tests
-from .frame_times import FrameTimes
 from .lettering import table_font, text_font
 from .theme import DARK, Theme
 
@@ -98,69 +93,6 @@ def place(canvas: Canvas, width: int, height: int, corner: str) -> tuple[int, in
     if corner == "middle":
         y = (picture_height - height) // 2
     return max(x, 0), max(y, 0)
-
-
-def short_statistics(times: FrameTimes, stats: dict[str, Any]) -> str:
-    """Return a one-line summary of the last frame's statistics."""
-    drawn, total = stats["triangles_drawn"], stats["triangles"]
-    parts = [f"{times.drawing_seconds * 1000:.1f} ms to draw", f"{drawn:,} of {total:,} triangles"]
-    if times.count > 1:
-        parts.insert(0, f"{1.0 / times.seconds:.0f} frames per second")
-    return ", ".join(parts)
-
-
-def statistics_lines(
-    seconds: float,
-    size: tuple[int, int],
-    samples: int,
-    stats: dict[str, Any],
-    place: str = "",
-    culling: str = "all",
-) -> list[str]:
-    """Return the statistics of the last frame, line by line; they fit 640 x 480 pixels.
-
-    Parameters
-    ----------
-    seconds : float
-        Mean time from frame to frame.
-    size : (int, int)
-        Width and height in pixels.
-    samples : int
-        Samples a pixel.
-    stats : dict
-        `Frame.stats`: counters and milliseconds of each stage.
-    place : str
-        Where the camera is.
-    culling : str
-        The culling method.
-    """
-    rate = 1.0 / seconds if seconds > 0.0 else 0.0
-    lines = [
-        f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
-        f"{size[0]}x{size[1]}" + (f", {samples} samples per pixel" if samples > 1 else ""),
-    ]
-    if place:
-        lines[1] += f"; {place}"
-    tabled = count_names()
-    if tabled <= stats.keys():
-        lines += [*count_table(stats), told_tests(stats, culling)]
-        tabled.add("boxes_tested")
-    else:
-        tabled = set()
-    entries = []
-    for name, value in stats.items():
-        if name in tabled or name == "plan":
-            continue  # the plan's names are only for developers of the rasteriser
-        text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
-        entries.append(f"{name.replace('_', ' '):<19}{text:>11}")
-    return lines + _in_two_columns(entries)
-
-
-def _in_two_columns(entries: list[str]) -> list[str]:
-    """Return lines of two entries each, with the first half in the left column."""
-    half = (len(entries) + 1) // 2
-    pairs = zip_longest(entries[:half], entries[half:], fillvalue="")
-    return ["   ".join(pair).rstrip() for pair in pairs]
 
 
 def draw_axes(canvas: Canvas, view: AnyView, scale: int | None = None) -> None:

@@ -110,7 +110,7 @@ def _show(
     from ...desktop.recent_files import RecentFiles
     from ...viewer.model_files import ModelFiles
     from ...viewer.sampling import AT_REST, Sampling
-    from ...viewer.viewer import Viewer
+    from ...viewer.viewer import HINT, Viewer
 
     how = _viewing(args)
     with (
@@ -133,12 +133,13 @@ def _show(
             ),
             sampling=Sampling(1 if args.antialiasing == "none" else args.samples),
         )
+        viewer.controls.shown = args.controls and not args.terminal
         viewer.time = (args.animation_time or 0.0) % viewed.period
         if STANDARD_INPUT not in args.models:
             RecentFiles().add(*args.models)
         still = viewed.update is not None and not viewer.playing
         if viewer.walker is None:
-            viewer.say("H: help" + ("; Space: play" if still else ""))
+            viewer.say(HINT + ("; Space: play" if still else ""))
         elif isinstance(viewer.walker, GroundController):
             report.line(told(viewer.walker.grid))
         _run_viewer(viewer, args)

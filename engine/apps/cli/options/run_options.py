@@ -37,6 +37,13 @@ def add(parser) -> None:
         "-z", "--fps", action="store_true", help="show frames per second and statistics"
     )
     group.add_argument(
+        "--controls",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="show the bar of commands, the ball of axes and the time line (on by default); F10 "
+        "hides them",
+    )
+    group.add_argument(
         "--vsync",
         action=argparse.BooleanOptionalAction,
         default=True,

@@ -1,0 +1,1 @@
+"""What the viewer has beside the picture: bar, time line, statistics; and the ball of axes."""

@@ -1,0 +1,83 @@
+"""A list over the picture that typed text filters, and keys or clicks choose from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ...errors import printable
+from .list_panels import Panel
+
+if TYPE_CHECKING:
+    from .viewer import Viewer
+
+
+class FilteredPanel(Panel):
+    """A filtered list.
+
+    Attributes
+    ----------
+    filter : str
+        The typed text.
+    """
+
+    def __init__(self, viewer: Viewer):
+        super().__init__(viewer)
+        self.filter = ""
+        self.chosen = 0
+
+    def heads(self, left_out: int) -> list[str]:
+        return [self.title + self.more(left_out), f"filter: {self.filter}_"]
+
+    def choices(self) -> Sequence[int]:
+        """Return the numbers of the rows that can be chosen."""
+        return range(len(self.rows()))
+
+    def key(self, event) -> bool:
+        """Handle all keys but those with Ctrl and the window's own, such as F11."""
+        if event.control:
+            return False
+        if event.key in ("Up", "Down", "PageUp", "PageDown", "Home", "End"):
+            self._move(event.key)
+        elif event.key in ("Return", "Enter", "Keypad Enter"):
+            self._press_chosen(event.shift)
+        elif event.key == "Backspace":
+            self._rub_out()
+        elif event.key == "Tab":
+            self._change_list()
+        elif not super().key(event):
+            typed = len(event.key) == 1 or event.key == "Space" or event.key.startswith("Keypad")
+            return typed  # its text arrives as a separate event
+        self.viewer.redraw_controls()
+        return True
+
+    def _move(self, key: str) -> None:
+        """Choose another row, by a key."""
+        choices = self.choices()
+        if not choices:
+            return
+        last = len(choices) - 1
+        steps = {"Up": -1, "Down": 1, "PageUp": -self._fit, "PageDown": self._fit}
+        steps |= {"Home": -last, "End": last}
+        now = choices.index(self.chosen) if self.chosen in choices else 0
+        self.chosen = choices[min(max(0, now + steps[key]), last)]
+        self._follows = True
+
+    def type(self, text: str) -> None:
+        self.set_filter(self.filter + printable(text))
+
+    def set_filter(self, text: str) -> None:
+        """Show only what contains a text."""
+        self.filter, self._follows = text, True
+        self.chosen = next(iter(self.choices()), 0)
+        self.viewer.redraw_controls()
+
+    def _press_chosen(self, alone: bool) -> None:
+        if self.chosen in self.choices():
+            self.press(self.chosen, alone)
+
+    def _rub_out(self) -> None:
+        self.set_filter(self.filter[:-1])
+
+    def _change_list(self) -> None:
+        """Switch to another list, if there is one."""

@@ -65,7 +65,7 @@ class Settings:
         The steepest walkable slope, in radians.
     grid, axes, metadata, axes_grid, bar : bool
         What to draw besides the scene.
-    ui_scale : int or None
+    ui_scale : float or None
         Factor on the size of texts; None chooses by the screen and the picture.
     theme : Theme
         Dark or light.
@@ -99,7 +99,7 @@ class Settings:
     metadata: bool = False
     axes_grid: bool = False
     bar: bool = False
-    ui_scale: int | None = None
+    ui_scale: float | None = None
     theme: Theme = DARK
     keeps_theme: bool = False
 

@@ -17,7 +17,6 @@ from engine3d.apps.viewer.sdl import (
     is_opengl_on_the_cpu,
     load_sdl,
     refresh_rate,
-    screen_scale,
 )
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.apps.viewer.window import POINTERS, Window
@@ -349,31 +348,6 @@ def test_vertical_sync_keeps_the_screens_rhythm(monkeypatch):
         for _ in range(12):
             window.present(pixels)
         assert time.perf_counter() - start > 11 / refresh_rate(sdl2, window._window) * 0.9
-
-
-class X11:
-    """As much of SDL as tells how fine a screen is that says nothing of its size."""
-
-    def __init__(self, driver):
-        self._driver = driver
-
-    def SDL_GetCurrentVideoDriver(self):
-        return self._driver
-
-    def SDL_GetWindowDisplayIndex(self, window):
-        return 0
-
-    def SDL_GetDisplayDPI(self, *arguments):
-        return -1
-
-
-@pytest.mark.parametrize(
-    ("driver", "told", "scale"),
-    [(b"x11", "2", 2), (b"x11", "many", 1), (b"x11", "", 1), (b"wayland", "2", 1)],
-)
-def test_a_screen_is_as_fine_as_the_user_told_other_programs(monkeypatch, driver, told, scale):
-    monkeypatch.setenv("GDK_SCALE", told)
-    assert screen_scale(X11(driver), None) == scale
 
 
 @pytest.fixture

@@ -6,13 +6,14 @@ In: a `Canvas` over the frame, a fraction from 0 to 1. Out: the same pixels, dra
 from __future__ import annotations
 
 from ...stage.overlays.theme import Theme
+from ...stage.overlays.ui_scale import scaled
 
 HEIGHT = 4
 
 
-def draw_bar(canvas, share: float, *, scale: int, theme: Theme) -> None:
+def draw_bar(canvas, share: float, *, scale: float, theme: Theme) -> None:
     """Draw the bar: the played part in one colour, the rest in another."""
-    height, played = HEIGHT * scale, round(min(1.0, max(0.0, share)) * canvas.width)
+    height, played = scaled(HEIGHT, scale), round(min(1.0, max(0.0, share)) * canvas.width)
     top = max(canvas.height - height, 0)
     canvas.rectangle(0, top, canvas.width, height, theme.block)
     if played:

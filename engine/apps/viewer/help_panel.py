@@ -13,6 +13,7 @@ from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import PADDING, place, text_scale
 from ...stage.overlays.theme import DARK, Theme
+from ...stage.overlays.ui_scale import scaled
 from ...stage.views.fps import LOOKS, MOVES
 from .keymap import GESTURES, SECTIONS, WALKING, WALKING_GESTURES
 
@@ -106,7 +107,7 @@ class _Characters:
 def draw_help(
     canvas,
     page: int = 0,
-    scale: int | None = None,
+    scale: float | None = None,
     theme: Theme = DARK,
     key_at: KeyAt | None = None,
 ) -> int:
@@ -118,7 +119,7 @@ def draw_help(
         Over the frame.
     page : int
         Which part, from 0, where not all of it fits.
-    scale : int, optional
+    scale : float, optional
         Factor on the font's size; by default what suits the picture.
     theme : Theme
     key_at : callable, optional
@@ -129,16 +130,16 @@ def draw_help(
     int
         How many pages there are.
     """
-    font = text_font(scale or text_scale(canvas))
-    inset = 5 * PADDING
+    scale = scale or text_scale(canvas)
+    font, inset = text_font(scale), 5 * scaled(PADDING, scale)
     room, rows = canvas.width - inset, (canvas.height - inset) // font.line_height
     columns = help_columns(key_at)
     if _whole_width(columns, font) <= room and max(map(len, columns)) <= rows:
-        _draw_columns(canvas, columns, font, theme)
+        _draw_columns(canvas, columns, font, theme, scale)
         return 1
     pages = _pages(help_sections(key_at), font, room, rows)
     page = min(page, len(pages) - 1)
-    _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], font, theme)
+    _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], font, theme, scale)
     return len(pages)
 
 
@@ -187,16 +188,17 @@ def _whole_width(columns: list[list[Row]], font: Font) -> int:
     return sum(_widths(columns, font)) + font.width(GUTTER) * (len(columns) - 1)
 
 
-def _draw_columns(canvas, columns: list[list[Row]], font: Font, theme: Theme) -> None:
-    width = _whole_width(columns, font) + 4 * PADDING
-    height = font.line_height * max(map(len, columns)) + 4 * PADDING
-    left, top = place(canvas, width, height, "middle")
+def _draw_columns(canvas, columns: list[list[Row]], font: Font, theme: Theme, scale: float) -> None:
+    padding = scaled(PADDING, scale)
+    width = _whole_width(columns, font) + 4 * padding
+    height = font.line_height * max(map(len, columns)) + 4 * padding
+    left, top = place(canvas, width, height, "middle", scale)
     canvas.rectangle(left, top, width, height, theme.block)
-    x = left + 2 * PADDING
+    x = left + 2 * padding
     for column, column_width in zip(columns, _widths(columns, font), strict=True):
         indent = _indent(column, font)
         for row, (key, text) in enumerate(column):
-            y = top + 2 * PADDING + row * font.line_height
+            y = top + 2 * padding + row * font.line_height
             canvas.text(x, y, key, theme.key if text else theme.title, font=font)
             canvas.text(x + indent, y, text, theme.text, font=font)
         x += column_width + font.width(GUTTER)

@@ -12,6 +12,7 @@ from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import MARGIN, PADDING, place
 from ...stage.overlays.theme import Theme
+from ...stage.overlays.ui_scale import scaled
 
 if TYPE_CHECKING:
     from .state import ViewerState
@@ -56,6 +57,7 @@ class Panel:
         self._fit = 1
         self._box = (0, 0, 0, 0)
         self._row_height = 1
+        self._padding, self._margin = PADDING, MARGIN
 
     def rows(self) -> list[Row]:
         """Return the current rows."""
@@ -69,26 +71,28 @@ class Panel:
         """Return the lines above the rows; not all of them may fit."""
         return [self.title + (f"  ({len(self.rows())}, wheel: more)" if left_out else "")]
 
-    def draw(self, canvas, scale: int, theme: Theme) -> None:
+    def draw(self, canvas, scale: float, theme: Theme) -> None:
         """Draw the rows that fit, from the first visible one."""
         font = text_font(scale)
         self._row_height = font.line_height
+        self._padding, self._margin = scaled(PADDING, scale), scaled(MARGIN, scale)
         seen, heads, blank = self._fitting_rows(canvas)
         wide = self._width([*heads, self.hint], seen, font)
-        wide = max(min(wide, canvas.width - 2 * MARGIN - 2 * PADDING), 1)
-        width = wide + 2 * PADDING
-        height = (len(heads) + len(seen) + blank + 1) * self._row_height + 2 * PADDING
-        left, top = place(canvas, width, height, self.corner)
+        padding = self._padding
+        wide = max(min(wide, canvas.width - 2 * self._margin - 2 * padding), 1)
+        width = wide + 2 * padding
+        height = (len(heads) + len(seen) + blank + 1) * self._row_height + 2 * padding
+        left, top = place(canvas, width, height, self.corner, scale)
         self._box = left, top, width, height
         canvas.rectangle(left, top, width, height, theme.block)
         if self.chosen is not None and 0 <= self.chosen - self._first < len(seen):
-            y = top + PADDING + (len(heads) + self.chosen - self._first) * self._row_height
+            y = top + padding + (len(heads) + self.chosen - self._first) * self._row_height
             bar = (*theme.title[:3], BAR_ALPHA)
             canvas.rectangle(left, y, width, self._row_height, bar)
         rows = [Row(head) for head in heads] + seen + [Row("")] * blank + [Row(self.hint)]
         colors = [theme.title] * len(heads) + [theme.text] * (len(seen) + blank) + [theme.key]
         for number, (row, color) in enumerate(zip(rows, colors, strict=True)):
-            x, y = left + PADDING, top + PADDING + number * self._row_height
+            x, y = left + padding, top + padding + number * self._row_height
             text, detail = fitted(row, wide, font)
             canvas.text(x, y, text, color, font=font)
             canvas.text(x + wide - font.width(detail), y, detail, color, font=font)
@@ -107,7 +111,8 @@ class Panel:
 
     def _fitting_rows(self, canvas) -> tuple[list[Row], list[str], int]:
         """Return the rows that fit, the lines above them, and the number of blank ones below."""
-        rows, room = self.rows(), (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height
+        rows, inset = self.rows(), 2 * self._margin + 2 * self._padding
+        room = (canvas.height - inset) // self._row_height
         self._heads = len(self.heads(0))
         self._fit = max(1, min(room - self._heads - 1, len(rows)))
         if self.chosen is not None and self._follows:
@@ -124,7 +129,7 @@ class Panel:
 
     def click(self, x: int, y: int, alone: bool) -> None:
         """Handle a click at a pixel."""
-        line = (y - self._box[1] - PADDING) // self._row_height - self._heads
+        line = (y - self._box[1] - self._padding) // self._row_height - self._heads
         if 0 <= line < self._fit and self._first + line < len(self.rows()):
             self.press(self._first + line, alone)
             self.viewer.redraw()

@@ -18,6 +18,7 @@ from ...stage.overlays.selection_outline import (
     draw_outline,
     selection_lines,
 )
+from ...stage.overlays.ui_scale import scaled
 from ...stage.view_renderer import ViewRenderer
 from ...stage.views.fps import LOOKS, MOVES
 from .. import events
@@ -179,7 +180,7 @@ class Viewer(ViewerState):
         look = {"scale": scale, "theme": self.view_renderer.theme}
         if self.selected is not None:
             if not self.view_renderer.split:
-                draw_outline(self.frame, self.selected, WIDTH * scale)
+                draw_outline(self.frame, self.selected, scaled(WIDTH, scale))
             draw_block(canvas, self._selection(), corner="bottom right", **look)
         if self.help.shown:
             self.help.count = draw_help(canvas, self.help.page, **look, key_at=self._walking_keys())

@@ -4,8 +4,10 @@ import json
 
 import pytest
 
+from engine3d.apps.cli import main
 from engine3d.apps.cli.parser import parse
 from engine3d.apps.cli.usage import UsageError
+from engine3d.apps.viewer.program_window import ProgramWindow
 
 COMMANDS = ("run", "render", "edit", "learn")
 
@@ -39,3 +41,24 @@ def test_config_files_choose_the_scale(command, own_config):
     assert parse([command]).ui_scale == 1.5
     assert parse([command, "--ui-scale", "2"]).ui_scale == 2.0
     assert parse([command, "--no-config"]).ui_scale is None
+
+
+class Opened(BaseException):
+    """What ends a command when it opens its window."""
+
+
+@pytest.mark.parametrize("command", ["run", "edit", "learn"])
+def test_the_window_of_each_command_has_the_scale(command, monkeypatch):
+    if command == "edit":
+        pytest.importorskip("imgui_bundle", reason="it is an extra", exc_type=ImportError)
+    scales = []
+
+    def open_window(window, size, vsync):
+        scales.append(window.scale)
+        raise Opened
+
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setattr(ProgramWindow, "_open", open_window)
+    with pytest.raises(Opened):
+        main([command, "--ui-scale", "1.75"])
+    assert scales == [1.75]

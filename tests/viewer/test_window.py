@@ -13,6 +13,7 @@ import engine3d as e3d
 from engine3d import events
 from engine3d.apps.viewer.icon import FACES, icon
 from engine3d.apps.viewer.sdl import (
+    BORDER_SECONDS,
     find_screen,
     is_opengl_on_the_cpu,
     load_sdl,
@@ -418,10 +419,20 @@ def test_texts_and_lists_are_twice_as_large_on_a_fine_screen(fine_window):
 
 
 class FramedScreen:
-    """SDL, but that its screen has another size, a bar at the top, and frames windows."""
+    """SDL, but that its screen has another size, a bar at the top, and frames windows, maybe late.
 
-    def __init__(self, sdl, bar, size, borders):
+    Parameters
+    ----------
+    late : int
+        How often borders are unknown before they are told.
+    """
+
+    def __init__(self, sdl, bar, size, borders, late=0):
         self._sdl, self._bar, self._size, self._borders = sdl, bar, size, borders
+        self._late = late
+
+    def SDL_GetCurrentVideoDriver(self):
+        return b"x11"
 
     def __getattr__(self, name):
         return getattr(self._sdl, name)
@@ -431,6 +442,9 @@ class FramedScreen:
         return 0
 
     def SDL_GetWindowBordersSize(self, window, *borders):
+        self._late -= 1
+        if self._late >= 0:
+            return 0
         for pointer, border in zip(borders, self._borders, strict=True):
             pointer._obj.value = border
         return 0
@@ -456,3 +470,24 @@ def test_a_window_fits_the_screen_with_its_borders(asked, size, monkeypatch):
             x, y = ctypes.c_int(), ctypes.c_int()
             window._sdl.SDL_GetWindowPosition(window._window, x, y)
             assert (x.value, y.value) == (4, 40)
+
+
+def test_a_window_waits_for_the_title_bar_that_its_manager_adds(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    with Window((640, 480)) as window:
+        window._sdl = FramedScreen(window._sdl, 0, (640, 480), (30, 4, 4, 4), late=5)
+        window.fit_to_screen()
+        assert window.size == (632, 446)
+
+
+def test_without_a_window_manager_a_window_waits_for_no_title_bar_long(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    with Window((640, 480)) as window:
+        window._sdl = FramedScreen(window._sdl, 0, (640, 480), (0, 0, 0, 0))
+        start = time.monotonic()
+        window.fit_to_screen()
+        assert window.size == (640, 480)
+        assert time.monotonic() - start >= BORDER_SECONDS
+        window._sdl = FramedScreen(window._sdl, 0, (1000, 1000), (0, 0, 0, 0))
+        monkeypatch.setattr(FramedScreen, "SDL_GetWindowBordersSize", None)
+        window.fit_to_screen()  # it fits with any title bar

@@ -469,7 +469,7 @@ def test_a_window_fits_the_screen_with_its_borders(asked, size, monkeypatch):
         if asked != size:
             x, y = ctypes.c_int(), ctypes.c_int()
             window._sdl.SDL_GetWindowPosition(window._window, x, y)
-            assert (x.value, y.value) == (4, 40)
+            assert (x.value, y.value) == (4 + (592 - size[0]) // 2, 40 + (366 - size[1]) // 2)
 
 
 def test_a_window_waits_for_the_title_bar_that_its_manager_adds(monkeypatch):

@@ -89,7 +89,7 @@ def refresh_rate(sdl, window) -> int:
 
 
 def fit_to_screen(sdl, window) -> None:
-    """Shrink a window that, with its borders, is larger than its screen."""
+    """Shrink a window that, with its borders, is larger than its screen, and centre it."""
     import ctypes
 
     area, screen = sdl.SDL_Rect(), sdl.SDL_GetWindowDisplayIndex(window)
@@ -102,8 +102,10 @@ def fit_to_screen(sdl, window) -> None:
     top, left, bottom, right = _borders(sdl, window)
     fitting = area.w - left - right, area.h - top - bottom
     if width.value > fitting[0] or height.value > fitting[1]:
-        sdl.SDL_SetWindowSize(window, min(width.value, fitting[0]), min(height.value, fitting[1]))
-        sdl.SDL_SetWindowPosition(window, area.x + left, area.y + top)
+        size = min(width.value, fitting[0]), min(height.value, fitting[1])
+        aside = [(room - side) // 2 for room, side in zip(fitting, size, strict=True)]
+        sdl.SDL_SetWindowSize(window, *size)
+        sdl.SDL_SetWindowPosition(window, area.x + left + aside[0], area.y + top + aside[1])
 
 
 def _borders(sdl, window) -> list[int]:

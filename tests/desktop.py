@@ -51,12 +51,29 @@ class Screen:
     def __init__(self, name, pid, size):
         self.name, self.pid, self.size = name, pid, size
 
+    def environment(self):
+        """Return the variables of a program on this screen."""
+        others = ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "GDK_SCALE", "GDK_DPI_SCALE")
+        kept = {name: value for name, value in os.environ.items() if name not in others}
+        return {**kept, "DISPLAY": self.name}
+
 
 @contextlib.contextmanager
-def virtual_screen(width, height):
+def virtual_screen(width, height, *options):
     """Start a `Screen`; end it afterwards."""
     size = f"{width}x{height}x24"
-    command = ["Xvfb", "-displayfd", "1", "-screen", "0", size, "-nolisten", "tcp", "-noreset"]
+    command = [
+        "Xvfb",
+        "-displayfd",
+        "1",
+        "-screen",
+        "0",
+        size,
+        "-nolisten",
+        "tcp",
+        "-noreset",
+        *options,
+    ]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as server:
         yield Screen(":" + server.stdout.readline().decode().strip(), server.pid, (width, height))
         server.terminate()
@@ -103,9 +120,7 @@ class Desktop:
 
     def __init__(self, screen, folder, command, **variables):
         self.folder, self.screen = folder, screen
-        self.environment = {**os.environ, "DISPLAY": screen.name, **variables}
-        for name in ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
-            self.environment.pop(name, None)
+        self.environment = {**screen.environment(), **variables}
         self.process = subprocess.Popen(
             [sys.executable, *command],
             cwd=folder,

@@ -13,6 +13,7 @@ from ..model.materials.colors import srgb_to_linear_table
 from ..rendering.frame import Frame, Output
 from .overlays.lettering import text_font
 from .overlays.theme import Theme
+from .overlays.ui_scale import scaled
 from .views.viewpoint import Sphere
 
 #: This output tells surfaces from background.
@@ -69,12 +70,12 @@ def paint(frame: Frame, name: str, bounds: Sphere) -> None:
     frame.color[covered, :3] = picture_of(name, getattr(frame, name), bounds)[covered]
 
 
-def split(frame: Frame, bounds: Sphere, theme: Theme) -> None:
+def split(frame: Frame, bounds: Sphere, theme: Theme, scale: float = 1.0) -> None:
     """Replace a frame's colour by nine outputs side by side, each at a third of the size."""
     height, width = frame.height // 3, frame.width // 3
     third = slice(1, 3 * height, 3), slice(1, 3 * width, 3)
     covered, whole = frame.depth[third] > 0, frame.color[third].copy()
-    canvas, font = frame.canvas(), text_font(1)
+    canvas, font, inset = frame.canvas(), text_font(scale), scaled(INSET, scale)
     for row, names in enumerate(SPLIT):
         for column, name in enumerate(names):
             picture = whole.copy()
@@ -84,7 +85,7 @@ def split(frame: Frame, bounds: Sphere, theme: Theme) -> None:
             top, left = row * height, column * width
             frame.color[top : top + height, left : left + width] = picture
             canvas.text(
-                left + INSET, top + INSET, name, theme.text, font=font, background=theme.block
+                left + inset, top + inset, name, theme.text, font=font, background=theme.block
             )
 
 

@@ -70,7 +70,7 @@ class Settings:
         What to draw besides the scene.
     measured : tuple of Measurement
         What to measure in pictures; points are in the file's coordinates.
-    ui_scale : int or None
+    ui_scale : float or None
         Factor on the size of texts; None chooses by the screen and the picture.
     theme : Theme
         Dark or light.
@@ -106,7 +106,7 @@ class Settings:
     bar: bool = False
     dimensions: bool = False
     measured: tuple[Measurement, ...] = ()
-    ui_scale: int | None = None
+    ui_scale: float | None = None
     theme: Theme = DARK
     keeps_theme: bool = False
 

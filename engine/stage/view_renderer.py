@@ -40,6 +40,7 @@ from .overlays.debug_lines import draw_lines
 from .overlays.labels import draw_labels
 from .overlays.selection_outline import CLICK_OUTPUTS
 from .overlays.theme import Theme
+from .overlays.ui_scale import scale_for
 from .scene_bounds import turning_outline, turning_outline_of_points
 from .stage_settings import Settings
 from .staging import Staging
@@ -106,7 +107,7 @@ class ViewRenderer:
         Statistics of the last frame drawn while culling was not frozen.
     turned_up : str or None
         The up direction chosen with `turn_up`.
-    screen_scale : int
+    screen_scale : float
         Scale factor of the screen that shows the frames.
     """
 
@@ -131,7 +132,7 @@ class ViewRenderer:
         self.stats: dict[str, Any] = {}
         self.split = False
         self.culling = CullingStudy()
-        self.screen_scale = 1
+        self.screen_scale = 1.0
         self.turned_up: str | None = None
         self._renderers: dict[int, Renderer] = {}
         self._small: Renderer | None = None  # of pictures of the model alone
@@ -333,7 +334,7 @@ class ViewRenderer:
             return NOTHING
         from .overlays.scalar_bar import place_bar
 
-        return place_bar(*self.size, bar, self._text_scale(*self.size)).taken(*self.size)
+        return place_bar(*self.size, bar, self.ui_scale).taken(*self.size)
 
     def choose_theme(self, view: Viewpoint) -> None:
         """Choose the theme that the model contrasts with as seen from a view, if none is chosen."""
@@ -362,7 +363,7 @@ class ViewRenderer:
             lines = self.culling.lines(self.viewed.scene, self.size)
             draw_lines(frame, lines, self.text_scale(frame))
         if self.split:
-            split(frame, self.bounds, self.theme)
+            split(frame, self.bounds, self.theme, self.text_scale(frame))
         draw_labels(frame, view, self.staging, self.split, self.text_scale)
         if self.culling.camera is None:
             self.stats = frame.stats
@@ -478,14 +479,17 @@ class ViewRenderer:
         """Choose a debug drawing of culling, one of `DEBUG_DRAWINGS`, as seen from a view."""
         self.culling.choose(drawing, (self.camera(view), view.pose()))
 
-    def text_scale(self, picture: Canvas | Frame) -> int:
+    @property
+    def ui_scale(self) -> float:
+        """The scale of texts, panels and marks over frames of the present size."""
+        return self._text_scale(*self.size)
+
+    def text_scale(self, picture: Canvas | Frame) -> float:
         """Return the font scale of texts over a `Canvas` or `Frame`."""
         return self._text_scale(picture.width, picture.height)
 
-    def _text_scale(self, width: int, height: int) -> int:
-        from .overlays.overlay import text_scale_for
-
-        return self.settings.ui_scale or text_scale_for(width, height, self.screen_scale)
+    def _text_scale(self, width: int, height: int) -> float:
+        return self.settings.ui_scale or scale_for(width, height, self.screen_scale)
 
     def close(self) -> None:
         """Free the renderers' memory."""

@@ -437,3 +437,27 @@ def test_numbers_of_the_grid_do_not_overlap(tmp_path, monkeypatch):
     for number, a in enumerate(boxes):
         for b in boxes[:number]:  # rounded to whole pixels, they may touch
             assert not (a[0] + 1 < b[2] and b[0] + 1 < a[2] and a[1] + 1 < b[3] and b[1] + 1 < a[3])
+
+
+@pytest.mark.parametrize("scale", [1, 1.25, 2])
+def test_numbers_of_the_grid_are_not_cut_by_the_picture_s_edge(heat, scale, monkeypatch):
+    written, write = [], Canvas.text
+
+    def text(canvas, x, y, string, color, **options):
+        width, height = options["font"].text_size(string)
+        written.append((x, y, x + width, y + height))
+        return write(canvas, x, y, string, color, **options)
+
+    monkeypatch.setattr(Canvas, "text", text)
+    width, height = 400, 300
+    settings = Settings({}, axes_grid=True, ui_scale=scale)
+    with ViewRenderer(open_model(heat), settings, (width, height)) as view_renderer:
+        for closer in (1.0, 1.3, 1.7, 2.3):
+            for aside in (-0.8, 0.0, 0.6):
+                view = view_renderer.view()
+                view.distance /= closer
+                view.target = view.target + aside * np.array([1.0, 0.7, 0.0])
+                view_renderer.draw(view)
+    corners = np.array(written)
+    assert len(corners) > 40 / scale
+    assert (corners >= 0).all() and (corners[:, 2:] <= (width, height)).all()

@@ -13,11 +13,11 @@ import engine3d as e3d
 from engine3d import events
 from engine3d.apps.viewer.icon import FACES, icon
 from engine3d.apps.viewer.sdl import (
+    BORDER_SECONDS,
     find_screen,
     is_opengl_on_the_cpu,
     load_sdl,
     refresh_rate,
-    screen_scale,
 )
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.apps.viewer.window import POINTERS, Window
@@ -351,31 +351,6 @@ def test_vertical_sync_keeps_the_screens_rhythm(monkeypatch):
         assert time.perf_counter() - start > 11 / refresh_rate(sdl2, window._window) * 0.9
 
 
-class X11:
-    """As much of SDL as tells how fine a screen is that says nothing of its size."""
-
-    def __init__(self, driver):
-        self._driver = driver
-
-    def SDL_GetCurrentVideoDriver(self):
-        return self._driver
-
-    def SDL_GetWindowDisplayIndex(self, window):
-        return 0
-
-    def SDL_GetDisplayDPI(self, *arguments):
-        return -1
-
-
-@pytest.mark.parametrize(
-    ("driver", "told", "scale"),
-    [(b"x11", "2", 2), (b"x11", "many", 1), (b"x11", "", 1), (b"wayland", "2", 1)],
-)
-def test_a_screen_is_as_fine_as_the_user_told_other_programs(monkeypatch, driver, told, scale):
-    monkeypatch.setenv("GDK_SCALE", told)
-    assert screen_scale(X11(driver), None) == scale
-
-
 @pytest.fixture
 def fine_window(monkeypatch):
     """A window whose drawable area is twice its size, as on a fine screen of Wayland or macOS."""
@@ -444,10 +419,20 @@ def test_texts_and_lists_are_twice_as_large_on_a_fine_screen(fine_window):
 
 
 class FramedScreen:
-    """SDL, but that its screen has another size, a bar at the top, and frames windows."""
+    """SDL, but that its screen has another size, a bar at the top, and frames windows, maybe late.
 
-    def __init__(self, sdl, bar, size, borders):
+    Parameters
+    ----------
+    late : int
+        How often borders are unknown before they are told.
+    """
+
+    def __init__(self, sdl, bar, size, borders, late=0):
         self._sdl, self._bar, self._size, self._borders = sdl, bar, size, borders
+        self._late = late
+
+    def SDL_GetCurrentVideoDriver(self):
+        return b"x11"
 
     def __getattr__(self, name):
         return getattr(self._sdl, name)
@@ -457,6 +442,9 @@ class FramedScreen:
         return 0
 
     def SDL_GetWindowBordersSize(self, window, *borders):
+        self._late -= 1
+        if self._late >= 0:
+            return 0
         for pointer, border in zip(borders, self._borders, strict=True):
             pointer._obj.value = border
         return 0
@@ -481,4 +469,25 @@ def test_a_window_fits_the_screen_with_its_borders(asked, size, monkeypatch):
         if asked != size:
             x, y = ctypes.c_int(), ctypes.c_int()
             window._sdl.SDL_GetWindowPosition(window._window, x, y)
-            assert (x.value, y.value) == (4, 40)
+            assert (x.value, y.value) == (4 + (592 - size[0]) // 2, 40 + (366 - size[1]) // 2)
+
+
+def test_a_window_waits_for_the_title_bar_that_its_manager_adds(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    with Window((640, 480)) as window:
+        window._sdl = FramedScreen(window._sdl, 0, (640, 480), (30, 4, 4, 4), late=5)
+        window.fit_to_screen()
+        assert window.size == (632, 446)
+
+
+def test_without_a_window_manager_a_window_waits_for_no_title_bar_long(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    with Window((640, 480)) as window:
+        window._sdl = FramedScreen(window._sdl, 0, (640, 480), (0, 0, 0, 0))
+        start = time.monotonic()
+        window.fit_to_screen()
+        assert window.size == (640, 480)
+        assert time.monotonic() - start >= BORDER_SECONDS
+        window._sdl = FramedScreen(window._sdl, 0, (1000, 1000), (0, 0, 0, 0))
+        monkeypatch.setattr(FramedScreen, "SDL_GetWindowBordersSize", None)
+        window.fit_to_screen()  # it fits with any title bar

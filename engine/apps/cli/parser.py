@@ -36,7 +36,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         found.configured = configured
         return found
 
-    return configured(args.models)
+    return configured(getattr(args, "models", ()))
 
 
 def _parsed(arguments: list[str], parser: Parser) -> argparse.Namespace:

@@ -11,10 +11,11 @@ import math
 import re
 from collections.abc import Callable, Sequence
 
+from ...stage.overlays.ui_scale import LEAST_SCALE, MOST_SCALE
+
 MAX_SIDE = 16384
 MAX_THREADS = 256
 MAX_WIDTH = 256  # of lines and points
-MAX_UI_SCALE = 8
 MAX_ANISOTROPY = 16
 MAX_LOD_BIAS = 16
 MAX_EXPOSURE = 64  # stops
@@ -81,6 +82,11 @@ stops = _real(
     f"a number from -{MAX_EXPOSURE} to {MAX_EXPOSURE}", lambda value: abs(value) <= MAX_EXPOSURE
 )
 bloom = _real(f"a number from 0 to {MAX_BLOOM}", lambda value: 0.0 <= value <= MAX_BLOOM)
+#: Factor on the size of texts and panels.
+ui_scale = _real(
+    f"a number from {LEAST_SCALE:g} to {MOST_SCALE:g}",
+    lambda value: LEAST_SCALE <= value <= MOST_SCALE,
+)
 #: Slope of ground in degrees.
 slope = _real("from 0 to less than 90 degrees", lambda value: 0.0 <= value < 90.0)
 #: A vertical field of view in degrees.
@@ -111,7 +117,6 @@ count = _whole(1)
 picture_count = _whole(1, 100_000)
 #: Maximum anisotropy of textures.
 anisotropy = _whole(1, MAX_ANISOTROPY)
-ui_scale = _whole(1, MAX_UI_SCALE)
 city_triangles = _whole(*CITY_TRIANGLES)
 #: Number of parts into which edges are cut.
 subdivisions = _whole(1, MAX_SUBDIVISIONS)

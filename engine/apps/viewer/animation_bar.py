@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ...rendering.canvas import Canvas
 from ...rendering.fonts.font import Font
 from ...stage.overlays.theme import Theme
+from ...stage.overlays.ui_scale import scaled
 
 HEIGHT = 4
 #: A time that is dragged stays before the end, which is the beginning again.
@@ -22,7 +23,7 @@ _HOVER_ALPHA, _TRACK_ALPHA = 40, 70
 
 def draw_bar(canvas, share: float, *, scale: float, theme: Theme) -> None:
     """Draw the thin bar: the played part in one colour, the rest in another."""
-    height, played = round(HEIGHT * scale), round(min(1.0, max(0.0, share)) * canvas.width)
+    height, played = scaled(HEIGHT, scale), round(min(1.0, max(0.0, share)) * canvas.width)
     top = max(canvas.height - height, 0)
     canvas.rectangle(0, top, canvas.width, height, theme.block)
     if played:

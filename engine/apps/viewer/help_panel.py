@@ -53,9 +53,9 @@ class CommandPanel(FilteredPanel):
             self.title, self.hint = section, _SHORT_HINT
         self.set_filter("")
 
-    def place(self, canvas, width: int, height: int) -> tuple[int, int]:
+    def place(self, canvas, width: int, height: int, scale: float) -> tuple[int, int]:
         if self._left is None:
-            return super().place(canvas, width, height)
+            return super().place(canvas, width, height, scale)
         return max(min(self._left, canvas.width - width), 0), 0
 
     def heads(self, left_out: int) -> list[str]:

@@ -13,6 +13,7 @@ from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import MARGIN, PADDING, place
 from ...stage.overlays.theme import Theme
+from ...stage.overlays.ui_scale import scaled
 from .kept_drawing import KeptDrawing
 
 if TYPE_CHECKING:
@@ -73,6 +74,7 @@ class Panel:
         self._kept = KeptDrawing()
         self._widths: dict[Font, _Widths] = {}
         self._row_height = 1
+        self._padding, self._margin = PADDING, MARGIN
 
     def rows(self) -> list[Row]:
         """Return the current rows."""
@@ -94,13 +96,15 @@ class Panel:
         """Draw the rows that fit, from the first visible one."""
         font = text_font(scale)
         self._row_height = font.line_height
+        self._padding, self._margin = scaled(PADDING, scale), scaled(MARGIN, scale)
         shown, columns = self._shown(canvas, font)
-        width = columns.wide + 2 * PADDING
-        height = (len(shown) + 1) * self._row_height + 2 * PADDING
-        left, top = self.place(canvas, width, height)
+        padding = self._padding
+        width = columns.wide + 2 * padding
+        height = (len(shown) + 1) * self._row_height + 2 * padding
+        left, top = self.place(canvas, width, height, scale)
         self._box = left, top, width, height
         bar = None if self.chosen is None else self.chosen - self._first + self._heads
-        shows = shown, columns, bar, self.hint, font, theme
+        shows = shown, columns, bar, self.hint, font, padding, theme
         onto = canvas.pixels[top:, left:]
         self._kept.put(onto, (width, height), shows, lambda kept: _draw_list(kept, *shows))
 
@@ -109,13 +113,13 @@ class Panel:
         rows = self.rows()
         seen, heads, blank = self._fitting_rows(canvas, rows)
         columns = self._columns([*heads, self.hint], seen, rows, font)
-        most = canvas.width - 2 * MARGIN - 2 * PADDING
+        most = canvas.width - 2 * self._margin - 2 * self._padding
         columns = columns._replace(wide=max(min(columns.wide, most), 1))
         return [Row(head, is_title=True) for head in heads] + seen + [Row("")] * blank, columns
 
-    def place(self, canvas, width: int, height: int) -> tuple[int, int]:
+    def place(self, canvas, width: int, height: int, scale: float) -> tuple[int, int]:
         """Return the top left pixel of the panel."""
-        return place(canvas, width, height, self.corner)
+        return place(canvas, width, height, self.corner, scale)
 
     def _columns(self, lines: list[str], seen: list[Row], rows: list[Row], font: Font) -> _Columns:
         """Return the widths of the list and its columns in pixels, if there is room."""
@@ -139,8 +143,8 @@ class Panel:
 
     def _fitting_rows(self, canvas, rows: list[Row]) -> tuple[list[Row], list[str], int]:
         """Return the rows that fit, the lines above them, and the number of blank ones below."""
-        self._count = len(rows)
-        room = (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height
+        self._count, inset = len(rows), 2 * self._margin + 2 * self._padding
+        room = (canvas.height - inset) // self._row_height
         self._heads = len(self.heads(0))
         self._fit = max(1, min(room - self._heads - 1, len(rows)))
         if self.chosen is not None and self._follows:
@@ -160,7 +164,7 @@ class Panel:
 
     def click(self, x: int, y: int, alone: bool) -> None:
         """Handle a click at a pixel."""
-        line = (y - self._box[1] - PADDING) // self._row_height - self._heads
+        line = (y - self._box[1] - self._padding) // self._row_height - self._heads
         if 0 <= line < self._fit and self._first + line < len(self.rows()):
             self.press(self._first + line, alone)
             self.viewer.redraw()
@@ -254,18 +258,19 @@ def _draw_list(
     bar: int | None,
     hint: str,
     font: Font,
+    padding: int,
     theme: Theme,
 ) -> None:
     """Draw a list that fills a canvas: its rows, a bar behind one of them, and a hint."""
     canvas.clear((*theme.block[:3], 255))
     if bar is not None and 0 <= bar < len(rows):
-        color, y = (*theme.title[:3], BAR_ALPHA), PADDING + bar * font.line_height
+        color, y = (*theme.title[:3], BAR_ALPHA), padding + bar * font.line_height
         canvas.rectangle(0, y, canvas.width, font.line_height, color)
-    y = PADDING
+    y = padding
     for row in rows:
-        _draw_row(canvas, (PADDING, y), row, columns, font, theme)
+        _draw_row(canvas, (padding, y), row, columns, font, theme)
         y += font.line_height
-    canvas.text(PADDING, y, font.fitted(hint, columns.wide), theme.key, font=font)
+    canvas.text(padding, y, font.fitted(hint, columns.wide), theme.key, font=font)
 
 
 def _draw_row(

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .state import ViewerState
 
-#: Pixels of motion allowed in a click.
+#: Pixels of motion allowed in a click, at scale 1.
 CLICK_REACH = 4
 
 
@@ -63,7 +63,7 @@ class Mouse:
 
     @property
     def _dragging(self) -> bool:
-        return self._travelled > CLICK_REACH
+        return self._travelled > CLICK_REACH * max(self._viewer.view_renderer.ui_scale, 1.0)
 
     def _click(self, event) -> None:
         if event.clicks == 2:

@@ -1,6 +1,6 @@
 """Loads SDL, which comes from pip (pysdl2-dll), when a window opens.
 
-Out: the loaded module, with its video running; what it says of the screen. A machine without a
+Out: the loaded module, with its video running; what fits the screen. A machine without a
 screen raises `DisplayError` with one line that says so.
 """
 
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 import warnings
 
 from ...errors import DisplayError
@@ -15,11 +16,11 @@ from .x11_errors import forgive_late_messages
 
 #: SDL's drivers without a screen, which are its fallback.
 SCREENLESS_DRIVERS = ("offscreen", "dummy", "evdev")
-USUAL_DPI = 96.0
-PLAUSIBLE_DPI = 50.0, 400.0
-#: Valid values of ``GDK_SCALE``.
-TOLD_SCALES = frozenset("1234")
 USUAL_REFRESH_RATE = 60
+#: No window has wider borders, nor a higher title bar.
+WIDEST_BORDER = 120
+#: Seconds until window managers have added borders.
+BORDER_SECONDS = 0.5
 GL_RENDERER = 0x1F01
 #: Parts of the names of OpenGL renderers without a graphics card.
 SOFTWARE_OPENGL = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software")
@@ -58,6 +59,8 @@ def open_video():
     # The class name that window managers see.
     sdl.SDL_setenv(b"SDL_VIDEO_X11_WMCLASS", b"engine3d", 0)
     sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, b"0")
+    # Otherwise Windows enlarges the picture, which is blurred then.
+    sdl.SDL_SetHint(b"SDL_WINDOWS_DPI_AWARENESS", b"permonitorv2")
     if _has_x11():
         if not os.environ.get("WAYLAND_DISPLAY"):
             # Searching for Wayland as well would print errors.
@@ -86,51 +89,43 @@ def refresh_rate(sdl, window) -> int:
 
 
 def fit_to_screen(sdl, window) -> None:
-    """Shrink a window that, with its borders, is larger than its screen."""
+    """Shrink a window that, with its borders, is larger than its screen, and centre it."""
     import ctypes
 
     area, screen = sdl.SDL_Rect(), sdl.SDL_GetWindowDisplayIndex(window)
     if sdl.SDL_GetDisplayUsableBounds(screen, area) != 0 or area.w <= 0 or area.h <= 0:
         return
-    width, height, *borders = (ctypes.c_int() for _ in range(6))
+    width, height = ctypes.c_int(), ctypes.c_int()
     sdl.SDL_GetWindowSize(window, ctypes.byref(width), ctypes.byref(height))
-    # It returns zeros if borders are unknown.
-    sdl.SDL_GetWindowBordersSize(window, *map(ctypes.byref, borders))
-    top, left, bottom, right = (border.value for border in borders)
+    if width.value <= area.w - WIDEST_BORDER and height.value <= area.h - WIDEST_BORDER:
+        return
+    top, left, bottom, right = _borders(sdl, window)
     fitting = area.w - left - right, area.h - top - bottom
     if width.value > fitting[0] or height.value > fitting[1]:
-        sdl.SDL_SetWindowSize(window, min(width.value, fitting[0]), min(height.value, fitting[1]))
-        sdl.SDL_SetWindowPosition(window, area.x + left, area.y + top)
+        size = min(width.value, fitting[0]), min(height.value, fitting[1])
+        aside = [(room - side) // 2 for room, side in zip(fitting, size, strict=True)]
+        sdl.SDL_SetWindowSize(window, *size)
+        sdl.SDL_SetWindowPosition(window, area.x + left + aside[0], area.y + top + aside[1])
 
 
-def screen_scale(sdl, window) -> int:
-    """Return the scale factor of a window's screen; 1 if unknown.
+def _borders(sdl, window) -> list[int]:
+    """Return the width of a window's borders: top, left, bottom, right.
 
-    Only X11 leaves scaling to programs. The user's setting for other programs (``GDK_SCALE``)
-    overrides the screen's data.
+    Window managers add them a moment after the window is shown; until then, and without a manager,
+    they are zeros.
     """
     import ctypes
 
-    dpi = ctypes.c_float()
-    if sdl.SDL_GetCurrentVideoDriver() != b"x11":
-        return 1
-    told = os.environ.get("GDK_SCALE", "")
-    if told in TOLD_SCALES:
-        return int(told)
-    screen = sdl.SDL_GetWindowDisplayIndex(window)
-    if sdl.SDL_GetDisplayDPI(screen, ctypes.byref(dpi), None, None) != 0:
-        return 1
-    return scale_of(dpi.value)
-
-
-def scale_of(dpi: float) -> int:
-    """Return the text scale for a screen with given dots per inch.
-
-    Projectors and televisions report wrong sizes: they count as normal screens.
-    """
-    if not PLAUSIBLE_DPI[0] <= dpi <= PLAUSIBLE_DPI[1]:
-        return 1
-    return max(1, int(dpi / USUAL_DPI + 0.5))
+    borders = [ctypes.c_int() for _ in range(4)]
+    waits = sdl.SDL_GetCurrentVideoDriver() == b"x11"
+    end = time.monotonic() + BORDER_SECONDS * waits
+    while True:
+        sdl.SDL_PumpEvents()
+        sdl.SDL_GetWindowBordersSize(window, *map(ctypes.byref, borders))
+        widths = [border.value for border in borders]
+        if any(widths) or time.monotonic() >= end:
+            return widths
+        time.sleep(BORDER_SECONDS / 50)
 
 
 def is_opengl_on_the_cpu(sdl) -> bool:

@@ -32,6 +32,7 @@ from ...stage.viewed_thing import settings_for, viewed_thing
 from ...stage.views.first_view import view_of_scene
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
+from .program_window import ProgramWindow
 from .sampling import Sampling
 from .viewer import HINT, Viewer
 from .window import Window
@@ -139,10 +140,9 @@ def _show(thing, size, format, settings: Settings, **how: Any) -> None:
 
 
 def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] | None) -> None:
-    size = size or SIZE
     with (
-        Window(size, f"{viewed.title} - engine3d") as window,
-        ViewRenderer(viewed, settings, size, antialiasing="msaa") as view_renderer,
+        ProgramWindow(size, SIZE, f"{viewed.title} - engine3d") as window,
+        ViewRenderer(viewed, settings, window.size, antialiasing="msaa") as view_renderer,
     ):
         view = view_of_scene(view_renderer)
         try:

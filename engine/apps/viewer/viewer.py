@@ -20,6 +20,7 @@ from ...stage.overlays.selection_outline import (
     draw_outline,
     selection_lines,
 )
+from ...stage.overlays.ui_scale import scaled
 from ...stage.view_renderer import ViewRenderer
 from ...stage.views.fps import LOOKS, MOVES
 from .. import events
@@ -180,7 +181,7 @@ class Viewer(ViewerState):
         outputs = ("color",) if self.selected is None else OUTLINE_OUTPUTS
         self.frame = self.view_renderer.draw(self.view, self.time, outputs)
         if self.selected is not None and not self.view_renderer.split:
-            draw_outline(self.frame, self.selected, round(WIDTH * self.controls.scale))
+            draw_outline(self.frame, self.selected, scaled(WIDTH, self.controls.scale))
         pixels = self._over_frame()
         drawn = clock.monotonic()
         self.sampling.add(self.view_renderer.samples, drawn - start)

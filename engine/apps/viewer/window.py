@@ -17,19 +17,20 @@ from ...base.validation import text as checked_text
 from ...choices import PixelFormat, PointerShape
 from ...errors import DisplayError, InvalidArgumentError
 from ...stage.overlays.frame_times import FrameRate
+from ...stage.overlays.ui_scale import limited_scale
 from .. import events
 from .held import HeldInput
 from .icon import set_icon
 from .input import Translator, key_name, window_number
 from .pixels import Picture, as_pixels
 from .presenter import Presenter
+from .screen_scale import screen_scale
 from .sdl import (
     close_video,
     fit_to_screen,
     last_error,
     open_video,
     refresh_rate,
-    screen_scale,
 )
 
 MIN_SIDE = 64
@@ -324,10 +325,16 @@ class Window(FixedNames):
         self._sdl.SDL_SetWindowTitle(self._window, title.encode("utf-8", "replace"))
 
     @property
-    def scale(self) -> int:
-        """Scale factor of the window's screen; 1 if unknown."""
-        density = self._opened().density
-        return max(screen_scale(self._sdl, self._window), int(density + 0.5))
+    def scale(self) -> float:
+        """Scale factor of the window's screen, 0.5 to 4; 1 if unknown.
+
+        It is that of the user's other programs, such as 1.5: how many times as large texts are, in
+        pixels.
+        """
+        density, sdl = self._opened().density, self._sdl
+        if density > 1.0:  # the screen's units are larger than pixels
+            return limited_scale(density)
+        return screen_scale(sdl, sdl.SDL_GetWindowDisplayIndex(self._window))
 
     @property
     def minimised(self) -> bool:

@@ -91,7 +91,7 @@ class AxesGrid(NamedTuple):
         self,
         frame: Frame,
         far: tuple[bool, bool, bool],
-        scale: int,
+        scale: float,
         theme: Theme,
         beside: Taken = NOTHING,
     ) -> None:
@@ -133,7 +133,7 @@ class AxesGrid(NamedTuple):
         return max(edges, key=lambda edge: sign * edge[1][:, column].mean())[0]
 
     def _labels(
-        self, frame: Frame, axis: int, edge: np.ndarray, middle: np.ndarray, scale: int
+        self, frame: Frame, axis: int, edge: np.ndarray, middle: np.ndarray, scale: float
     ) -> list[_Label]:
         """Return the labels of an axis: its name, and the numbers that fit."""
         numbers = self.numbers(axis)
@@ -178,18 +178,24 @@ class AxesGrid(NamedTuple):
         canvas: Canvas,
         free: np.ndarray,
         taken: list[Box],
-        scale: int,
+        scale: float,
         theme: Theme,
     ) -> None:
-        """Write a text outward from a point, unless it would overlap or touch another."""
+        """Write a text outward from a point, unless it would overlap or touch another, or be cut.
+
+        Beside a point in the picture it is moved inward.
+        """
         font = text_font(scale)
         size = np.array(font.text_size(label.text), np.float64)
         reach = label.gap + abs(label.outward[0]) * size[0] / 2
         corner = np.asarray(label.at) + label.outward * reach - size / 2
-        if not np.isfinite(corner).all():
+        if not np.isfinite(corner).all() or (size > free).any():
             return
-        if ((label.at >= 0) & (label.at < free)).all():
-            corner = corner.clip(0, np.maximum(free - size, 0))
+        inside = corner.clip(0, free - size)
+        shows = ((label.at >= 0) & (label.at < free)).all()
+        if not shows and (inside != corner).any():
+            return  # it would be cut
+        corner = inside
         box = (*corner.tolist(), *(corner + size).tolist())
         if any(_overlap(box, other) for other in taken):
             return

@@ -64,7 +64,7 @@ class BoxGrid:
         if self._node is not None:
             self._node.visible = shown
 
-    def label(self, frame: Frame, scale: int, theme: Theme, beside: Taken) -> None:
+    def label(self, frame: Frame, scale: float, theme: Theme, beside: Taken) -> None:
         """Write the numbers of the grid, if it is in the frame, as `AxesGrid.label` does."""
         if self._node is not None and self._far is not None:
             self._grid.label(frame, self._far, scale, theme, beside)

@@ -20,7 +20,7 @@ def draw_labels(
     view: AnyView,
     staging: Staging,
     split: bool,
-    text_scale: Callable[[Frame], int],
+    text_scale: Callable[[Frame], float],
 ) -> None:
     """Draw the labels that the settings ask for over a frame.
 

@@ -9,16 +9,16 @@ _TEXT, _HEADING = 14, 22
 _TABLE = 40 / 3
 
 
-def text_font(scale: int) -> Font:
+def text_font(scale: float) -> Font:
     """Return the font of most texts."""
     return font("sans", _TEXT * scale)
 
 
-def heading_font(scale: int) -> Font:
+def heading_font(scale: float) -> Font:
     """Return the font of titles of pages."""
     return font("sans", _HEADING * scale)
 
 
-def table_font(scale: int) -> Font:
+def table_font(scale: float) -> Font:
     """Return the font of figures and words in columns, which are counted in characters."""
     return font("mono", _TABLE * scale)

@@ -86,7 +86,7 @@ def measurement_text(measured: Measurement, unit: str) -> str:
 
 
 def draw_measurement(
-    frame: Frame, measured: Measurement, unit: str, scale: int, theme: Theme
+    frame: Frame, measured: Measurement, unit: str, scale: float, theme: Theme
 ) -> None:
     """Draw points, the lines or the circle between them, and the text if there are all points."""
     points = measured.points

@@ -18,6 +18,7 @@ from .lettering import text_font
 from .overlay import MARGIN, PADDING
 from .theme import DARK, Theme
 from .ticks import label, ticks
+from .ui_scale import scaled
 
 _SHARE, _MOST_TICKS = 0.6, 6
 _FINEST, _TICK = 6, 4  # pixels at scale 1: thickness of the bar, length of a tick
@@ -62,17 +63,18 @@ class BarPlace(NamedTuple):
         return Taken(bottom=(height - self.top) / height)
 
 
-def place_bar(width: int, height: int, bar: ScalarBar, scale: int = 1) -> BarPlace:
+def place_bar(width: int, height: int, bar: ScalarBar, scale: float = 1) -> BarPlace:
     """Return the layout of a bar in a picture of some size, with texts of some scale."""
     upright = _upright(width, height, bar, scale)
     fits = width - upright.left <= _MOST * width and upright.top >= 0
     return upright if fits else _flat(width, height, bar, scale)
 
 
-def _edges(width: int, height: int, scale: int) -> tuple[int, int, int]:
+def _edges(width: int, height: int, scale: float) -> tuple[int, int, int]:
     """Return the thickness of a bar, its padding and its margin."""
     unit = min(width, height) // _UNITS
-    return max(unit, _FINEST * scale), min(max(unit, 2), PADDING), min(max(unit, 3), MARGIN)
+    padding, margin = scaled(PADDING, scale), scaled(MARGIN, scale)
+    return max(unit, scaled(_FINEST, scale)), min(max(unit, 2), padding), min(max(unit, 3), margin)
 
 
 def _numbers(bar: ScalarBar, most: int) -> tuple[list[float], list[str]]:
@@ -81,11 +83,11 @@ def _numbers(bar: ScalarBar, most: int) -> tuple[list[float], list[str]]:
     return numbers, [label(number, step) for number in numbers]
 
 
-def _widest(texts: list[str], scale: int) -> int:
+def _widest(texts: list[str], scale: float) -> int:
     return max(map(text_font(scale).width, texts), default=0)
 
 
-def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
+def _upright(width: int, height: int, bar: ScalarBar, scale: float) -> BarPlace:
     line = text_font(scale).line_height
     thick, padding, margin = _edges(width, height, scale)
     length = max(int(height * _SHARE), 2)
@@ -94,7 +96,7 @@ def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
         numbers, labels = _numbers(bar, length // line)
     room = max(int(_MOST * width - margin - 2 * padding), _widest(bar.title.split(), scale))
     title = text_font(scale).wrapped(bar.title, room) if bar.title else []
-    wide = thick + 2 * _TICK * scale + _widest(labels, scale)
+    wide = thick + 2 * scaled(_TICK, scale) + _widest(labels, scale)
     wide = max(wide, _widest(title, scale)) + 2 * padding
     high = length + 2 * padding + line * (len(title) + 1)
     left, top = width - wide - margin, (height - high) // 2
@@ -103,7 +105,7 @@ def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
     )
 
 
-def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
+def _flat(width: int, height: int, bar: ScalarBar, scale: float) -> BarPlace:
     font = text_font(scale)
     thick, padding, margin = _edges(width, height, scale)
     length = max(width - 2 * (margin + padding), 2)
@@ -115,7 +117,7 @@ def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
         numbers, labels = _numbers(bar, most)
         if (_widest(labels, scale) + font.width("0")) * len(labels) <= length:
             break
-    below = _TICK * scale + font.line_height
+    below = scaled(_TICK, scale) + font.line_height
     if high + below + margin > _MOST_FLAT * height or length < _widest(labels, scale):
         numbers, labels = [], []
     else:
@@ -130,7 +132,7 @@ def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
     )
 
 
-def draw_scalar_bar(canvas: Canvas, bar: ScalarBar, scale: int = 1, theme: Theme = DARK) -> None:
+def draw_scalar_bar(canvas: Canvas, bar: ScalarBar, scale: float = 1, theme: Theme = DARK) -> None:
     """Draw the bar on a block, with its title above it."""
     place = place_bar(canvas.width, canvas.height, bar, scale)
     font = text_font(scale)
@@ -159,17 +161,17 @@ def _draw_upright(
     bar: ScalarBar,
     place: BarPlace,
     corner: tuple[int, int],
-    scale: int,
+    scale: float,
     theme: Theme,
 ) -> None:
     (left, top), last = corner, place.length - 1
     font = text_font(scale)
     for row, color in enumerate(_colors(bar, place.length)):
         canvas.rectangle(left, top + last - row, place.thick, 1, (*color, 255))
-    right, tick = left + place.thick, _TICK * scale
+    right, tick = left + place.thick, scaled(_TICK, scale)
     for number, text in zip(place.numbers, place.labels, strict=True):
         y = top + last - _at(number, bar, place.length)
-        canvas.rectangle(right, y, tick, 1, theme.text)
+        canvas.rectangle(right, y, tick, scaled(1, scale), theme.text)
         canvas.text(right + 2 * tick, y - font.line_height // 2, text, theme.text, font=font)
 
 
@@ -178,15 +180,15 @@ def _draw_flat(
     bar: ScalarBar,
     place: BarPlace,
     corner: tuple[int, int],
-    scale: int,
+    scale: float,
     theme: Theme,
 ) -> None:
     (left, top), font = corner, text_font(scale)
     for column, color in enumerate(_colors(bar, place.length)):
         canvas.rectangle(left + column, top, 1, place.thick, (*color, 255))
-    bottom, tick = top + place.thick, _TICK * scale
+    bottom, tick = top + place.thick, scaled(_TICK, scale)
     for number, text in zip(place.numbers, place.labels, strict=True):
         x, wide = left + _at(number, bar, place.length), font.width(text)
-        canvas.rectangle(x, bottom, 1, tick, theme.text)
+        canvas.rectangle(x, bottom, scaled(1, scale), tick, theme.text)
         x = min(max(x - wide // 2, left), left + place.length - wide)
         canvas.text(x, bottom + tick, text, theme.text, font=font)

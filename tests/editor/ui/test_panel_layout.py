@@ -19,14 +19,14 @@ def test_closed_panels_and_steps_are_kept(editor):
     editor.workspace.tools.steps["turn"] = 22.5
     save_layout(editor.workspace)
     again = Workspace()
-    assert load_layout(again)
+    assert load_layout(again, (1000, 640))
     assert (again.panels.closed, again.tools.steps) == (
         editor.workspace.panels.closed,
         editor.workspace.tools.steps,
     )
     layout_path().write_text("[engine3d][Editor]\nmove=-1\nturn=x\nscale\nclosed=Console,Cat\n")
     damaged = Workspace()
-    assert load_layout(damaged)
+    assert load_layout(damaged, (1000, 640))
     assert damaged.tools.steps == Workspace().tools.steps and damaged.panels.closed <= {"Console"}
 
 

@@ -1,8 +1,8 @@
 /* Random and hostile 2-D drawing for the driver and the fuzzer.
  *
  * In:  a stream of random numbers.
- * Out: the hash of the framebuffer; whether both triangle fills gave it, and no byte beside a row
- *      was touched.
+ * Out: the hash of the framebuffer; whether both triangle fills gave it, no byte beside a row was touched, and each glyph of the
+ *      font was closed.
  */
 #pragma once
 

@@ -36,15 +36,18 @@ class Command(NamedTuple):
 
 
 def _add_edit(command: argparse.ArgumentParser) -> None:
-    from .. import values
+    from .. import config, values
+    from ..options import window_options
 
     command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
     command.add_argument(
         "--size",
         type=values.size,
         metavar="WxH",
-        help="size of the window in pixels; 1600x900 by default",
+        help="size of the window in pixels; 1600x900 by default, and more on a fine screen",
     )
+    window_options.add_ui_scale(command)
+    config.add_config(command)
 
 
 def _add_info(command: argparse.ArgumentParser) -> None:

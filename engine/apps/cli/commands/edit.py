@@ -21,6 +21,5 @@ def edit(args: argparse.Namespace) -> int:
         is_there = not isinstance(error, ModuleNotFoundError)
         lacks = f"it does not load: {error}" if is_there else "pip install 'engine3d[editor]'"
         raise Engine3DError(f"the editor needs Dear ImGui: {lacks}") from None
-    size = {"size": args.size} if args.size else {}
-    with EditorWindow(args.model or "", **size) as editor:
+    with EditorWindow(args.model or "", size=args.size, ui_scale=args.ui_scale) as editor:
         return editor.run()

@@ -23,7 +23,7 @@ import numpy as np
 
 from ....errors import DisplayError
 from ...viewer.lesson_window import Lesson, LessonWindow
-from ...viewer.window import Window
+from ...viewer.program_window import ProgramWindow
 from ..arguments import meant
 from ..usage import UsageError
 from . import french_lessons
@@ -55,7 +55,7 @@ def learn(args: argparse.Namespace) -> int:
         if os.path.exists(args.output) and not os.path.isdir(args.output):
             raise UsageError(f"-o FOLDER: {args.output} is not a folder")
         return write(programs[number], args.output, language)
-    show(programs, number, language)
+    show(programs, number, language, args.ui_scale)
     return 0
 
 
@@ -109,7 +109,7 @@ def write(program: Path, folder: str, language: str) -> int:
     return 0
 
 
-def show(programs: list[Path], number: int, language: str) -> None:
+def show(programs: list[Path], number: int, language: str, ui_scale: float | None = None) -> None:
     """Show lessons in a window, starting with a given one.
 
     Raises
@@ -122,7 +122,9 @@ def show(programs: list[Path], number: int, language: str) -> None:
         for k, program in enumerate(programs)
     ]
     try:
-        with Window(SIZE, lessons[number].title, wait=True) as window:
+        with ProgramWindow(
+            None, SIZE, lessons[number].title, ui_scale=ui_scale, wait=True
+        ) as window:
             say(KEYS[language].format(programs[number]))
             LessonWindow(window, lessons, number, STEP[language]).run()
     except DisplayError as error:

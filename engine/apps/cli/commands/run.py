@@ -164,10 +164,10 @@ def _window(args: argparse.Namespace, viewed):
         from ...terminal.terminal_window import TerminalWindow
 
         return TerminalWindow()
-    from ...viewer.window import Window
+    from ...viewer.program_window import ProgramWindow
 
-    size = args.size or WINDOW_SIZE
-    return Window(size, f"{viewed.title} - engine3d", vsync=args.vsync)
+    title = f"{viewed.title} - engine3d"
+    return ProgramWindow(args.size, WINDOW_SIZE, title, ui_scale=args.ui_scale, vsync=args.vsync)
 
 
 def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report) -> int:

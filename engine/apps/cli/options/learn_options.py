@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from .. import config
+from . import window_options
+
 LANGUAGES = ("en", "fr")
 
 
@@ -27,3 +30,5 @@ def add(command) -> None:
         metavar="FOLDER",
         help="write the lesson's pictures to a folder instead of opening a window",
     )
+    window_options.add_ui_scale(command)
+    config.add_config(command)

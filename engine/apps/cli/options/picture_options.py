@@ -9,6 +9,7 @@ from ....base.plugins.open_choices import OpenChoices
 from ....choices import Backend, LookName, Samples
 from .. import values
 from ..usage import UsageError
+from . import window_options
 
 if TYPE_CHECKING:
     from ....stage.look import Look
@@ -111,13 +112,7 @@ def add_picture(parser) -> None:
         action="store_true",
         help="show what the file holds, as text in the picture",
     )
-    group.add_argument(
-        "--ui-scale",
-        type=values.ui_scale,
-        metavar="N",
-        help="how many times larger texts are, 1 to 8; by default as the screen and the picture "
-        "want it",
-    )
+    window_options.add_ui_scale(group)
 
 
 def _add_antialiasing(group) -> None:

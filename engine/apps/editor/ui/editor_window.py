@@ -17,7 +17,7 @@ from ....rendering.canvas import Canvas
 from ....stage.overlays.lettering import heading_font
 from ... import events
 from ...imgui_painter.imgui_painter import ImguiPainter
-from ...viewer.window import Window
+from ...viewer.program_window import ProgramWindow
 from .console_panel import ConsolePanel
 from .files import Files
 from .hierarchy_panel import HierarchyPanel
@@ -28,7 +28,7 @@ from .panel_layout import load_layout, place_panels, save_layout
 from .properties_panel import PropertiesPanel
 from .resources_panel import ResourcesPanel
 from .scene_panel import ScenePanel
-from .style import choose_style
+from .style import choose_style, scaled, set_scale
 from .workspace import Workspace
 
 WINDOW_SIZE = (1600, 900)
@@ -51,8 +51,11 @@ class EditorWindow:
     ----------
     path : str, optional
         A file to edit; a scene (``.e3d.json``) need not be there yet.
-    size : (int, int)
-        Of the window, in pixels; not more than the screen has room for.
+    size : (int, int), optional
+        Of the window, in pixels; not more than the screen has room for. By default the usual size,
+        larger on a fine screen.
+    ui_scale : float, optional
+        The scale of texts and panels, 0.5 to 4; by default that of the screen.
 
     Raises
     ------
@@ -62,13 +65,15 @@ class EditorWindow:
         The file cannot be read.
     """
 
-    def __init__(self, path: str = "", *, size: tuple[int, int] = WINDOW_SIZE) -> None:
+    def __init__(
+        self, path: str = "", *, size: tuple[int, int] | None = None, ui_scale: float | None = None
+    ) -> None:
         self.workspace = Workspace()
         self._interrupts = Interrupts(self.workspace.keep_copy)
         self.workspace.guard = lambda: self._interrupts.stoppable(self._stops)
         if path:
             self.workspace.begin(path)
-        self.window = Window(size, self._title(), wait=True)
+        self.window = ProgramWindow(size, WINDOW_SIZE, self._title(), ui_scale=ui_scale, wait=True)
         self.window.fit_to_screen()
         self._context = imgui.create_context()
         io = imgui.get_io()
@@ -79,7 +84,8 @@ class EditorWindow:
         io.config_error_recovery_enable_debug_log = False
         io.config_windows_move_from_title_bar_only = True
         io.set_ini_filename("")
-        choose_style(self.window.scale)
+        choose_style()
+        set_scale(self.window.scale)
         self._painter = ImguiPainter()
         self._input = ImguiInput(self.window)
         self._scene = ScenePanel(self.workspace, self._painter)
@@ -99,7 +105,7 @@ class EditorWindow:
         self._told: set[str] = set()
         self._late: list = []  # events that wait for the next picture, or came while Python ran
         self._last = time.monotonic()
-        self.workspace.panels.wants_usual_places = not load_layout(self.workspace)
+        self.workspace.panels.wants_usual_places = not load_layout(self.workspace, self.window.size)
         self._pictures_due = SETTLING
 
     def run(self) -> int:
@@ -159,7 +165,8 @@ class EditorWindow:
             self._has_told = True
             canvas = Canvas(self.window.size)
             canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
-            canvas.text(16, 16, RUNNING, "white", font=heading_font(1), background=(150, 40, 40))
+            font, place = heading_font(self.window.scale), scaled(16.0)
+            canvas.text(place, place, RUNNING, "white", font=font, background=(150, 40, 40))
             self.window.present(canvas)
         closes = any(isinstance(event, events.CloseRequested) for event in happened)
         return closes or any(map(_is_stop_key, happened))
@@ -172,6 +179,8 @@ class EditorWindow:
 
     def _take(self, event) -> None:
         self._pictures_due = SETTLING
+        if isinstance(event, events.Exposed | events.Resized | events.Restored):
+            set_scale(self.window.scale)  # the window may have moved to another screen
         if isinstance(event, events.CloseRequested):
             self._files.exit()
         elif isinstance(event, events.FilesDropped):

@@ -15,8 +15,10 @@ from ....base.files.folder_listing import Item, Listing, list_folder
 from ...desktop.recent_files import RecentFiles
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..file_pictures import FilePictures
+from .style import scaled
 
 _SIZE = 62, 30  # in heights of the font
+#: Side of a thumbnail at scale 1.
 PICTURE = 192
 
 
@@ -37,7 +39,7 @@ class FileDialog:
 
     def __init__(self, recent: RecentFiles, painter: ImguiPainter) -> None:
         self._recent, self._painter = recent, painter
-        self._pictures = FilePictures(PICTURE)
+        self._pictures = FilePictures(round(scaled(PICTURE)))
         self._picture, self._pixels = 0, None
         self._hovered = ""
         self.is_waiting = False
@@ -141,7 +143,7 @@ class FileDialog:
                     self._hovered = path
         imgui.end_child()
         imgui.same_line()
-        side = PICTURE + 2 * imgui.get_style().window_padding.x
+        side = scaled(PICTURE) + 2 * imgui.get_style().window_padding.x
         shows = wide > 4 * side
         if imgui.begin_child("files", (-side * shows, below), _BORDERS):
             self._draw_table()
@@ -163,7 +165,7 @@ class FileDialog:
             self._picture = self._picture or self._painter.add(pixels, opaque=True)
             self._painter.replace(self._picture, pixels, opaque=True)
             self._pixels = pixels
-        imgui.image(imgui.ImTextureRef(self._picture), (PICTURE, PICTURE))
+        imgui.image(imgui.ImTextureRef(self._picture), (scaled(PICTURE), scaled(PICTURE)))
         imgui.text_wrapped(os.path.basename(path))
 
     def _draw_table(self) -> None:

@@ -14,6 +14,7 @@ from ....model.scene.cameras import Camera, far_depth
 from ....model.scene.instances import InstancedMesh
 from ....model.scene.nodes import Node
 from ....rendering.frame import Frame
+from .style import scaled
 from .workspace import Workspace
 
 _EDGES = [(a, b) for a in range(8) for b in (a | 1, a | 2, a | 4) if a < b]
@@ -82,9 +83,9 @@ class Overlays:
         color = imgui.get_color_u32(_MARK)
         for node, place, depth in zip(nodes, places.tolist(), depths.tolist(), strict=True):
             if depth > 0:
-                at = corner.x + place[0], corner.y + place[1]
-                lines.add_circle(at, MARK_PIXELS, color)
-                lines.add_text((at[0] + 2 * MARK_PIXELS, at[1] - MARK_PIXELS), color, node.name)
+                at, side = (corner.x + place[0], corner.y + place[1]), scaled(MARK_PIXELS)
+                lines.add_circle(at, side, color, thickness=scaled(1.0))
+                lines.add_text((at[0] + 2 * side, at[1] - side), color, node.name)
 
     def _frustum(self, node: Node, frame: Frame) -> np.ndarray:
         """Return the eight corners of a camera's frustum, in world space."""
@@ -133,4 +134,4 @@ def _draw_lines(lines, frame: Frame, corner, starts, ends, color) -> None:
     shift = np.array([corner.x, corner.y])
     packed = imgui.get_color_u32(color)
     for start, end in zip((a[shown] + shift).tolist(), (b[shown] + shift).tolist(), strict=True):
-        lines.add_line(start, end, packed)
+        lines.add_line(start, end, packed, scaled(1.0))

@@ -10,6 +10,8 @@ import configparser
 import contextlib
 import math
 import os
+import re
+from collections.abc import Mapping
 from pathlib import Path
 
 from imgui_bundle import imgui
@@ -17,11 +19,18 @@ from imgui_bundle import imgui
 from ....base.files.atomic_write import atomic_write
 from ....base.files.json_records import read_small
 from ....errors import FileAccessError, FileFormatError, warn
+from ....stage.overlays.ui_scale import LEAST_SCALE, MOST_SCALE
 from ...desktop.user_folders import user_path
 from .workspace import PANELS, Workspace
 
 _HEAD = "[engine3d][Editor]"
+_SCALE = "ui_scale"
 _LARGEST = 1 << 20  # bytes
+#: A layout of another screen is used if its window was at most so many times as wide as this one.
+_ROOM = 1.2
+#: Of the window's width, and the least in heights of the font: the panels at the left and right.
+_LEFT, _LEAST_LEFT, _MOST_LEFT = 0.2, 12.0, 0.25
+_RIGHT, _LEAST_RIGHT, _MOST_RIGHT = 0.21, 21.0, 0.42
 
 
 def layout_path() -> Path:
@@ -29,8 +38,8 @@ def layout_path() -> Path:
     return user_path("state", "editor.ini")
 
 
-def load_layout(workspace: Workspace) -> bool:
-    """Load the saved layout; return whether there was one."""
+def load_layout(workspace: Workspace, size: tuple[int, int]) -> bool:
+    """Load the saved layout; return whether there was one that suits a window of some size."""
     try:
         text = read_small(layout_path(), _LARGEST).decode("utf-8")
     except UnicodeError:
@@ -40,8 +49,14 @@ def load_layout(workspace: Workspace) -> bool:
         if os.path.lexists(layout_path()):
             warn(f"{error}: panels have their usual places")
         return False
+    settings = text.partition(_HEAD)[2].partition("\n[")[0]
+    _read_settings(workspace, settings)
+    ratio = _scale_ratio(settings)
+    if ratio != 1.0:
+        text = _enlarged(text, ratio)
+        if _width_of(text) > _ROOM * size[0]:
+            return False
     imgui.load_ini_settings_from_memory(text)
-    _read_settings(workspace, text.partition(_HEAD)[2].partition("\n[")[0])
     return True
 
 
@@ -50,6 +65,7 @@ def save_layout(workspace: Workspace) -> None:
     path = layout_path()
     lines = [_HEAD, f"closed={','.join(sorted(workspace.panels.closed))}"]
     lines += [f"{tool}={step!r}" for tool, step in workspace.tools.steps.items()]
+    lines.append(f"{_SCALE}={imgui.get_style().font_scale_dpi!r}")
     text = "\n".join(lines) + "\n\n" + imgui.save_ini_settings_to_memory()
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -59,18 +75,45 @@ def save_layout(workspace: Workspace) -> None:
         return
 
 
-def _read_settings(workspace: Workspace, text: str) -> None:
-    """Read the known settings of the editor's section."""
+def _scale_ratio(settings: str) -> float:
+    """Return the present scale over that of a layout, which may be of another screen."""
+    ratio = imgui.get_style().font_scale_dpi
+    with contextlib.suppress(ValueError, ZeroDivisionError):
+        ratio /= float(_section(settings).get(_SCALE, "1.0"))
+    return ratio if LEAST_SCALE / MOST_SCALE <= ratio <= MOST_SCALE / LEAST_SCALE else 1.0
+
+
+def _enlarged(text: str, ratio: float) -> str:
+    """Return a layout with all its lengths multiplied."""
+
+    def times(found: re.Match[str]) -> str:
+        name, x, y = found.groups()
+        return f"{name}={round(int(x) * ratio)},{round(int(y) * ratio)}"
+
+    return re.sub(r"\b(Pos|Size|SizeRef)=(-?\d{1,9}),(-?\d{1,9})", times, text)
+
+
+def _width_of(text: str) -> int:
+    """Return how wide the window of a layout was; 0 if it does not say so."""
+    found = re.search(r"^DockSpace .*\bSize=(\d{1,9})", text, re.MULTILINE)
+    return int(found[1]) if found else 0
+
+
+def _section(text: str) -> Mapping[str, str]:
+    """Return the settings of the editor's section."""
     parser = configparser.ConfigParser(interpolation=None, strict=False)
     with contextlib.suppress(configparser.Error):
         parser.read_string(f"[settings]\n{text}")
-    if not parser.has_section("settings"):
-        return
-    settings = parser["settings"]
+    return parser["settings"] if parser.has_section("settings") else {}
+
+
+def _read_settings(workspace: Workspace, text: str) -> None:
+    """Read the known settings of the editor's section."""
+    settings = _section(text)
     workspace.panels.closed = set(settings.get("closed", "").split(",")) & set(PANELS)
     for tool in workspace.tools.steps:
         with contextlib.suppress(ValueError):
-            step = settings.getfloat(tool, 0.0)
+            step = float(settings.get(tool, "0.0"))
             if 0.0 < step < math.inf:
                 workspace.tools.steps[tool] = step
 
@@ -85,8 +128,10 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
     builder.dock_builder_add_node(space, is_space | is_seen_through)
     builder.dock_builder_set_node_size(space, size)
     split = builder.dock_builder_split_node_py
-    *_, left, rest = split(space, imgui.Dir.left, 0.2)
-    *_, right, rest = split(rest, imgui.Dir.right, 0.26)
+    wide = _share(size[0], _LEFT, _LEAST_LEFT, _MOST_LEFT)
+    *_, left, rest = split(space, imgui.Dir.left, wide)
+    wide = _share(size[0], _RIGHT, _LEAST_RIGHT, _MOST_RIGHT) / (1.0 - wide)
+    *_, right, rest = split(rest, imgui.Dir.right, wide)
     *_, below, middle = split(rest, imgui.Dir.down, 0.28)
     places = {
         "Hierarchy": left,
@@ -98,6 +143,11 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
     for name, place in places.items():
         builder.dock_builder_dock_window(name, place)
     builder.dock_builder_finish(space)
+
+
+def _share(width: int, usual: float, least: float, most: float) -> float:
+    """Return the share of a window's width that a panel at its side gets."""
+    return min(max(usual, least * imgui.get_font_size() / width), most)
 
 
 def begin_panel(workspace: Workspace, name: str) -> bool:

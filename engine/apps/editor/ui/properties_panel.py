@@ -61,7 +61,9 @@ class PropertiesPanel:
         """Lay the panel out."""
         shown = begin_panel(self._workspace, "Properties")
         if shown:
-            imgui.push_item_width(-imgui.get_font_size() * 7)
+            room, names = imgui.get_content_region_avail().x, imgui.get_font_size() * 7
+            # In a narrow panel the names are cut, not the numbers.
+            imgui.push_item_width(max(room - names, 0.65 * room))
             node = self._workspace.document.selection.active
             if node is None:
                 self._draw_scene()

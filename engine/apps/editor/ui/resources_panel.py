@@ -14,8 +14,10 @@ from ...imgui_painter.imgui_painter import ImguiPainter
 from ..resource_list import Entry
 from ..thumbnails import Thumbnails
 from .panel_layout import begin_panel
+from .style import scaled
 from .workspace import Workspace
 
+#: Side of a thumbnail at scale 1.
 PICTURE = 48
 #: Seconds for thumbnails per frame; the rest follow in later frames.
 PATIENCE = 0.02
@@ -33,7 +35,7 @@ class ResourcesPanel:
 
     def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
         self._workspace, self._painter = workspace, painter
-        self._thumbnails = Thumbnails(PICTURE)
+        self._thumbnails = Thumbnails(round(scaled(PICTURE)))
         self._numbers: dict[int, tuple[object, int]] = {}
         self._deadline = 0.0
         self.is_waiting = False
@@ -65,21 +67,22 @@ class ResourcesPanel:
         imgui.table_setup_scroll_freeze(0, 1)
         imgui.table_headers_row()
         clipper = imgui.ListClipper()
-        clipper.begin(len(entries), PICTURE + 2 * imgui.get_style().cell_padding.y)
+        clipper.begin(len(entries), scaled(PICTURE) + 2 * imgui.get_style().cell_padding.y)
         while clipper.step():
             for number in range(clipper.display_start, clipper.display_end):
                 self._draw_row(number, entries[number])
         imgui.end_table()
 
     def _draw_row(self, number: int, entry: Entry) -> None:
-        imgui.table_next_row(0, PICTURE)
+        side = scaled(PICTURE)
+        imgui.table_next_row(0, side)
         imgui.table_next_column()
         picture = self._picture(entry)
         if picture:
-            imgui.image(imgui.ImTextureRef(picture), (PICTURE, PICTURE))
+            imgui.image(imgui.ImTextureRef(picture), (side, side))
             imgui.same_line()
         flags = imgui.SelectableFlags_.span_all_columns
-        if imgui.selectable(f"{entry.name}##{number}", False, flags, (0.0, PICTURE))[0]:
+        if imgui.selectable(f"{entry.name}##{number}", False, flags, (0.0, side))[0]:
             users = self._workspace.resources.users(entry.thing)
             self._workspace.document.selection.set(users)
         size = f"{entry.size:,} bytes" if entry.size else ""

@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
-from ....stage.overlays.selection_outline import outline_pixels
+from ....stage.overlays.selection_outline import WIDTH, outline_pixels
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
@@ -21,6 +21,7 @@ from .overlays import Overlays
 from .panel_layout import begin_panel
 from .scene_pictures import ScenePictures
 from .scene_tools import draw_tools
+from .style import scaled
 from .workspace import Workspace
 
 #: A press and release within this many pixels are a click.
@@ -124,7 +125,7 @@ class ScenePanel:
         self._seconds = time.perf_counter() - start
         ids = [] if workspace.display.as_rendered else self._selected_ids()
         if ids:
-            outline_pixels(frame, np.isin(frame.object_id, ids))
+            outline_pixels(frame, np.isin(frame.object_id, ids), round(scaled(WIDTH)))
         if not self._number:
             self._number = self._painter.add(frame.color, opaque=True)
         self._painter.replace(self._number, frame.color, opaque=True)
@@ -137,7 +138,7 @@ class ScenePanel:
         if self._workspace.document.moves:
             animator = self._workspace.document.animator
             text += f", {animator.time:.2f} s, frame {self._workspace.moments}"
-        place = corner.x + 8.0, corner.y + self._frame.height - 1.5 * imgui.get_font_size()
+        place = corner.x + scaled(8.0), corner.y + self._frame.height - 1.5 * imgui.get_font_size()
         color = imgui.get_color_u32(imgui.Col_.text_disabled)
         imgui.get_window_draw_list().add_text(place, color, text)
 
@@ -204,14 +205,14 @@ class ScenePanel:
             last = int(io.mouse_pos.x - corner.x), int(io.mouse_pos.y - corner.y)
             self._select_within(first, last, io.key_shift or io.key_ctrl)
         elif self._pressed is not None and not io.key_alt:
-            if imgui.is_mouse_dragging(0, CLICK_PIXELS):
+            if imgui.is_mouse_dragging(0, scaled(CLICK_PIXELS)):
                 lines, color = imgui.get_window_draw_list(), imgui.get_color_u32(RECTANGLE)
-                lines.add_rect(self._pressed, io.mouse_pos, color)
+                lines.add_rect(self._pressed, io.mouse_pos, color, thickness=scaled(1.0))
 
     def _select_within(self, first, last, adds: bool) -> None:
         workspace = self._workspace
         selection = workspace.document.selection
-        if max(abs(a - b) for a, b in zip(first, last, strict=True)) > CLICK_PIXELS:
+        if max(abs(a - b) for a, b in zip(first, last, strict=True)) > scaled(CLICK_PIXELS):
             nodes = enclosed(workspace.scene, self._frame, first, last)
             (selection.add if adds else selection.set)(nodes)
             return

@@ -11,6 +11,7 @@ from imgui_bundle import imgui
 
 from ....choices import LookName, Mode
 from .overlays import Overlays
+from .style import scaled
 from .workspace import Workspace
 
 MODES = get_args(Mode)
@@ -23,7 +24,7 @@ _LEAST, _MOST = 1e-4, 1e6
 
 def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
     """Lay the row out."""
-    imgui.dummy((2.0, 0.0))
+    imgui.dummy((scaled(2.0), 0.0))
     for name, key in TOOLS.items():
         label = f"{name.capitalize()} ({key})"
         _beside(label, boxes=1)

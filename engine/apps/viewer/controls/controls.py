@@ -18,8 +18,9 @@ from ....rendering.canvas import Canvas
 from ....rendering.fonts.font import Font
 from ....stage.overlays.axes_ball import RADIUS, BallPlace, draw_ball, tip_at, turn_to
 from ....stage.overlays.lettering import table_font, text_font
-from ....stage.overlays.overlay import MARGIN, PADDING, text_scale_for
+from ....stage.overlays.overlay import MARGIN, PADDING
 from ....stage.overlays.theme import Theme
+from ....stage.overlays.ui_scale import scale_for, scaled
 from ... import events
 from ..animation_bar import TimeState, draw_time_line, time_line
 from ..help_panel import CommandPanel
@@ -76,7 +77,7 @@ class Controls:
         """The factor on the size of texts over and beside the picture."""
         width, height = self._viewer.window.size
         chosen = self._viewer.view_renderer.settings.ui_scale
-        return chosen or text_scale_for(width, height, self._viewer.view_renderer.screen_scale)
+        return chosen or scale_for(width, height, self._viewer.view_renderer.screen_scale)
 
     @property
     def _has_strips(self) -> bool:
@@ -93,7 +94,7 @@ class Controls:
         scale, viewer = self.scale, self._viewer
         strip = bar_height(text_font(scale))
         moves = viewer.view_renderer.viewed.update is not None
-        side = table_font(scale).width("0") * SIDE_COLUMNS + 2 * PADDING
+        side = table_font(scale).width("0") * SIDE_COLUMNS + 2 * scaled(PADDING, scale)
         self.layout = lay_out(
             viewer.window.size,
             bar=strip if self.has_bar else 0,
@@ -145,7 +146,7 @@ class Controls:
         if not moves or now >= self._due:
             self._told, self._due = viewer.statistics_lines(), now + _READ_SECONDS
         font, size = table_font(self.scale), (side.width, side.height)
-        shows = self._told, font, theme
+        shows = self._told, font, scaled(PADDING, self.scale), theme
         self._side.put(side.of(pixels), size, shows, lambda canvas: _write_lines(canvas, *shows))
 
     def draw_ball(self, canvas: Canvas) -> None:
@@ -173,7 +174,7 @@ class Controls:
         if not self.has_bar or viewer.walker is not None or viewer.view_renderer.split:
             return None
         radius = RADIUS * self.scale
-        inset = radius + MARGIN
+        inset = radius + scaled(MARGIN, self.scale)
         height = self.layout.picture.height
         is_taken = viewer.view_renderer.settings.metadata
         y = height - inset if is_taken else inset
@@ -342,11 +343,11 @@ class Controls:
         return bool(held)
 
 
-def _write_lines(canvas: Canvas, lines: list[str], font: Font, theme: Theme) -> None:
+def _write_lines(canvas: Canvas, lines: list[str], font: Font, padding: int, theme: Theme) -> None:
     """Write as many lines of a column as fit, wrapped to its width."""
     canvas.clear((*theme.block[:3], 255))
-    width = max(canvas.width - 2 * PADDING, 1)
+    width = max(canvas.width - 2 * padding, 1)
     wrapped = [part for line in lines for part in font.wrapped(line, width)]
-    rows = max((canvas.height - 2 * PADDING) // font.line_height, 1)
+    rows = max((canvas.height - 2 * padding) // font.line_height, 1)
     for row, text in enumerate(wrapped[:rows]):
-        canvas.text(PADDING, PADDING + row * font.line_height, text, theme.text, font=font)
+        canvas.text(padding, padding + row * font.line_height, text, theme.text, font=font)

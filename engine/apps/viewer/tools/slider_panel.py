@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ....stage.overlays.overlay import PADDING
 from ....stage.overlays.theme import Theme
+from ....stage.overlays.ui_scale import scaled
 from ..list_panels import Panel
 
 #: Height of a slider's track, and width of its knob, in pixels times the scale.
@@ -27,22 +27,22 @@ class SliderPanel(Panel):
         """Handle a move of the knob."""
         raise NotImplementedError
 
-    def draw(self, canvas, scale: int, theme: Theme) -> None:
+    def draw(self, canvas, scale: float, theme: Theme) -> None:
         super().draw(canvas, scale, theme)
         row = self.slider - self._first
         if not 0 <= row < self._fit:
             return
         left, width = self._track()
-        top = self._box[1] + PADDING + (self._heads + row) * self._row_height
-        middle, half = top + self._row_height // 2, _TRACK * scale // 2
+        top = self._box[1] + self._padding + (self._heads + row) * self._row_height
+        middle, half = top + self._row_height // 2, scaled(_TRACK / 2, scale)
         canvas.rectangle(left, middle - half, width, 2 * half, theme.text[:3] + (90,))
-        knob = _KNOB * scale
+        knob = scaled(_KNOB, scale)
         place = left + round(self.share() * width) - knob // 2
         canvas.rectangle(place, top + 1, knob, self._row_height - 2, theme.title)
 
     def _track(self) -> tuple[int, int]:
         """Return the left end and the length of the track, in pixels."""
-        return self._box[0] + PADDING, max(self._box[2] - 2 * PADDING, 1)
+        return self._box[0] + self._padding, max(self._box[2] - 2 * self._padding, 1)
 
     def press(self, number: int, alone: bool) -> None:
         if number == self.slider:
@@ -53,7 +53,7 @@ class SliderPanel(Panel):
         """Handle a click on another row."""
 
     def click(self, x: int, y: int, alone: bool) -> None:
-        line = (y - self._box[1] - PADDING) // self._row_height - self._heads
+        line = (y - self._box[1] - self._padding) // self._row_height - self._heads
         self._slides = self._first + line == self.slider
         super().click(x, y, alone)
         self.drag(x)

@@ -8,11 +8,12 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node
+from ..adding import ADDED
 from ..hierarchy import Row
 from ..node_commands import Reparent
 from ..value_commands import SetValues
 from .panel_layout import begin_panel
-from .selection_actions import ADDED, add, delete, duplicate, group
+from .selection_actions import add, delete, duplicate, group
 from .workspace import Workspace
 
 _PAYLOAD = "node"
@@ -43,7 +44,7 @@ class HierarchyPanel:
 
     def draw(self) -> None:
         """Lay the panel out."""
-        shown = begin_panel(self._workspace, "Hierarchy")
+        shown = begin_panel("Hierarchy")
         if shown:
             self._draw_head()
             if imgui.begin_child("rows"):

@@ -7,9 +7,13 @@ what has changed is prepared anew.
 from __future__ import annotations
 
 from ....choices import LookName
+from ....model.scene.scene import Scene
+from ....model.scene.staged_scene import StagedScene
 from ....rendering.frame import Frame
 from ....stage.overlays.selection_outline import CLICK_OUTPUTS
 from ....stage.renderer import Renderer
+from ....stage.scenes_of_things import is_lit
+from .view.ground_grid import GroundGrid
 from .workspace import Workspace
 
 
@@ -25,20 +29,28 @@ class ScenePictures:
         self._workspace = workspace
         self._renderer: Renderer | None = None
         self._look: LookName | None = None
+        self._grid = GroundGrid()
 
-    def draw(self, size: tuple[int, int]) -> Frame:
-        """Return the frame of the workspace's view."""
+    def draw(self, size: tuple[int, int], grid: bool) -> Frame:
+        """Return the frame of the workspace's view, with or without the grid to work on."""
         workspace = self._workspace
         renderer, camera = self._renderer_for(size), workspace.camera()
         if workspace.display.as_rendered:
             return renderer.render(workspace.scene, camera, outputs=CLICK_OUTPUTS)
         return renderer.render(
-            workspace.scene,
+            self._with_grid() if grid else workspace.scene,
             camera,
             mode=workspace.display.mode,
             wireframe="overlay" if workspace.display.wireframe else None,
             outputs=CLICK_OUTPUTS,
         )
+
+    def _with_grid(self) -> Scene | StagedScene:
+        """Return the scene with the grid; without it where a look lays a ground."""
+        workspace = self._workspace
+        if workspace.display.worn_look != "plain" and not is_lit(workspace.scene):
+            return workspace.scene
+        return self._grid.beside(workspace.scene, workspace.bounds, workspace.view.up)
 
     def _renderer_for(self, size: tuple[int, int]) -> Renderer:
         look = self._workspace.display.worn_look

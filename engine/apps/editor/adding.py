@@ -52,11 +52,11 @@ class Standing(NamedTuple):
 
 
 _STANDING: dict[type, Standing] = {
-    DirectionalLight: Standing(3.0, _SLOPE),
-    PointLight: Standing(2.0, _LEVEL),
-    SpotLight: Standing(3.0, _DOWN),
-    AreaLight: Standing(2.0, _DOWN),
-    HemisphereLight: Standing(3.0, _LEVEL),
+    DirectionalLight: Standing(1.8, _SLOPE),
+    PointLight: Standing(1.4, _LEVEL),
+    SpotLight: Standing(1.8, _DOWN),
+    AreaLight: Standing(1.4, _DOWN),
+    HemisphereLight: Standing(1.8, _LEVEL),
     type(None): Standing(0.0, _LEVEL),
 }
 _OTHERS: dict[str, Callable[[], Any]] = {

@@ -58,7 +58,7 @@ class Start(NamedTuple):
 def empty() -> Scene:
     """Return a scene with a key light and a camera."""
     scene = Scene(DARK.background, ambient=(76, 80, 88))
-    key = linalg.look_at((-1.2, 2.6, 1.8), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    key = linalg.look_at((-0.9, 1.6, 0.7), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     light = DirectionalLight(intensity=0.75 * WHITE_INTENSITY, shadow="map")
     scene.add(light, name="key light", pose=key)
     _add_camera(scene, (-2.6, 1.4, 2.2), (0.0, 0.4, 0.0))
@@ -71,7 +71,7 @@ def studio() -> Scene:
     scene.environment, scene.environment_intensity = named_environment("studio"), 0.5
     _add(
         scene,
-        primitives.plane((16.0, 16.0)),
+        primitives.plane((24.0, 24.0)),
         "floor",
         Material(color=(205, 205, 205), roughness=0.6),
     )

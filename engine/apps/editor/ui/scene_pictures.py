@@ -50,7 +50,7 @@ class ScenePictures:
         workspace = self._workspace
         if workspace.display.worn_look != "plain" and not is_lit(workspace.scene):
             return workspace.scene
-        return self._grid.beside(workspace.scene, workspace.bounds, workspace.view.up)
+        return self._grid.beside(workspace.scene, workspace.view)
 
     def _renderer_for(self, size: tuple[int, int]) -> Renderer:
         look = self._workspace.display.worn_look

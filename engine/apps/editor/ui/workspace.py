@@ -381,7 +381,7 @@ class Workspace:
         node = self.through.node
         if node is not None:
             return node.object, node.world_pose
-        camera = self.view.camera(with_grid(self.bounds))
+        camera = self.view.camera(with_grid(self.bounds, self.view))
         if isinstance(camera, PerspectiveCamera):
             camera.reversed_depth = True
         return camera, self.view.pose()

@@ -30,6 +30,7 @@ SHARE, LABEL_LETTERS = 0.55, 5.0
 #: What a number needs, in digits, and a colour, in letters.
 NUMBER_DIGITS, COLOR_LETTERS = 8, 9.5
 _FAR = 1e9
+_NEARLY, _SMALL = 1e-7, 5e-4
 
 
 class Fields:
@@ -109,8 +110,13 @@ class Fields:
         self.label(label)
         imgui.text_wrapped(text)
 
-    def button(self, label: str) -> bool:
-        """Lay out a button; return whether it was pressed."""
+    def button(self, label: str, *, beside: bool = False) -> bool:
+        """Lay out a button, where asked beside the last item; return whether it was pressed."""
+        if beside:
+            imgui.same_line()
+            width = imgui.calc_text_size(label).x + 2.0 * imgui.get_style().frame_padding.x
+            if width > imgui.get_content_region_avail().x:
+                imgui.new_line()
         return imgui.button(label)
 
     # Values
@@ -147,9 +153,9 @@ class Fields:
                 imgui.same_line(0.0, gap)
             imgui.set_next_item_width(width)
             now = float(rows[-1][place])
-            differs = any(row[place] != now for row in rows)
-            how = DIFFERS if differs else form or "%.6g"
+            differs = any(_differ(float(row[place]), now) for row in rows)
             shown = now * factor
+            how = DIFFERS if differs else form or _short(shown)
             changed, new = imgui.drag_float(f"##{label} {place}", shown, speed, low, high, how)
             self.follow_drag()
             if changed:
@@ -284,6 +290,18 @@ def _rows(things: Sequence[Any], numbers_of: Callable[[Any], list[Any]]) -> list
         return [numbers_of(thing) for thing in things]
     last = numbers_of(things[-1])
     return [[math.nan] * len(last), last]
+
+
+def _differ(one: float, other: float) -> bool:
+    """Return whether two numbers differ by more than what rounding did to one of them."""
+    return not math.isclose(one, other, rel_tol=_NEARLY, abs_tol=_NEARLY)
+
+
+def _short(value: float) -> str:
+    """Return a number with up to three decimals, as a format that has no placeholder."""
+    if value and abs(value) < _SMALL:
+        return f"{value:.2e}"
+    return f"{value + 0.0:.3f}".rstrip("0").rstrip(".")
 
 
 def _replaced(values: Any, changed: dict[int, float]) -> list[float]:

@@ -134,7 +134,6 @@ class MaterialFields:
             self._files.load_texture(materials, slot)
         if held[-1] is not None and now != DIFFERS:
             height, width = held[-1].pixels.shape[:2]
-            imgui.same_line()
             self._fields.note(f"{width} x {height}")
         imgui.pop_id()
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from imgui_bundle import imgui
-
 from .....errors import InvalidArgumentError
 from .....model.geometry.mesh import Mesh
 from .....model.scene.instances import InstancedMesh
@@ -64,12 +62,11 @@ class ShapeFields:
             label = f"Make {chosen.lower()}"
         if mesh is not None and any(each is not mesh for each in held):
             self._fields.set(nodes, {"object": mesh}, label)
-        if len(nodes) == 1 and self._fields.button("Load a file ..."):
+        is_one = len(nodes) == 1
+        if is_one and self._fields.button("Load a file ..."):
             self._files.load_mesh(nodes[0])
         if any(each is not None for each in held):
-            if len(nodes) == 1:
-                imgui.same_line()
-            if self._fields.button("Remove the mesh"):
+            if self._fields.button("Remove the mesh", beside=is_one):
                 self._fields.set(nodes, {"collider": None, "object": None}, "Remove the mesh")
 
     def _options(self) -> Iterator[tuple[str, Any]]:

@@ -1,7 +1,7 @@
 """The grid on the ground and the axes through the origin, drawn with the scene.
 
-In: a scene, its bounds, the up direction. Out: the scene with lines beside it. The grid changes
-only when the scene's size doubles or halves, so that it rests while nodes are dragged.
+In: a scene, a view. Out: the scene with lines beside it. The grid is as large as what one looks at:
+it changes when the view's distance doubles or halves, and rests while nodes are dragged.
 """
 
 from __future__ import annotations
@@ -17,28 +17,27 @@ from .....model.scene.scene import Scene
 from .....model.scene.staged_scene import StagedScene
 from .....stage.overlays.grid_lines import REACH, grid
 from .....stage.overlays.overlay import AXIS_COLORS
-from .....stage.views.viewpoint import Sphere
+from .....stage.views.viewpoint import Sphere, Viewpoint
 
-#: The grid reaches at least so far, unless the scene is smaller than that.
-_USUAL, _SMALL = 4.0, 0.25
-_DIAGONAL = math.sqrt(2.0)
+#: The grid's size in the view's distance, at least.
+_NEARER = 2.0
+#: The grid's last square, in its size, at most.
+_WHOLE = 0.8
 
 
-def grid_sphere(bounds: Sphere) -> Sphere:
+def grid_sphere(view: Viewpoint) -> Sphere:
     """Return the sphere that the grid is made for: of a round size, around a round place."""
-    radius = 2.0 ** (1 + math.ceil(math.log2(bounds.radius)))
-    if bounds.radius > _SMALL:
-        radius = max(radius, _USUAL)
-    center = np.round(np.asarray(bounds.center) / radius) * radius
-    return Sphere(tuple((center + 0.0).tolist()), radius)
+    radius = 2.0 ** math.floor(math.log2(view.distance / _NEARER))
+    center = np.round(view.target / radius) * radius + 0.0
+    return Sphere(tuple(center.tolist()), radius)
 
 
-def with_grid(bounds: Sphere) -> Sphere:
-    """Return a sphere around a scene's bounds and the grid below it."""
-    ground = grid_sphere(bounds)
+def with_grid(bounds: Sphere, view: Viewpoint) -> Sphere:
+    """Return a sphere around a scene's bounds and the grid on the ground."""
+    ground = grid_sphere(view)
     apart = float(linalg.length(np.subtract(ground.center, bounds.center)))
-    height = float(linalg.length(np.asarray(ground.center)))
-    reach = _DIAGONAL * (REACH + 0.5) * ground.radius + apart + height
+    height = abs(float(linalg.dot(ground.center, home_axes(view.up)[1])))
+    reach = math.sqrt(2.0) * (REACH + _WHOLE) * ground.radius + apart + height
     return Sphere(bounds.center, max(bounds.radius, reach))
 
 
@@ -49,11 +48,11 @@ class GroundGrid:
         self._staged: StagedScene | None = None
         self._made_of: tuple = ()
 
-    def beside(self, scene: Scene, bounds: Sphere, up: tuple[float, float, float]) -> StagedScene:
+    def beside(self, scene: Scene, view: Viewpoint) -> StagedScene:
         """Return the scene with the grid beside it: the same until the grid changes."""
         if self._staged is None or self._staged.scene is not scene:
             self._staged, self._made_of = StagedScene(scene), ()
-        key = grid_sphere(bounds), up
+        key = grid_sphere(view), view.up
         if key != self._made_of:
             self._staged.clear()
             for lines in (axes(*key), grid(0.0, *key)):

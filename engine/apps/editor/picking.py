@@ -56,6 +56,8 @@ def pick(scene: Scene, frame: Frame, x: int, y: int, *, reach: float = 10.0) -> 
     if beside is not None:
         return Pick(beside)
     hit = scene.pick(frame, x, y)
+    if hit is None and "object_id" in frame.outputs and frame.object_id[y, x] >= 0:
+        hit = _behind(scene, frame, x, y)  # a line of the grid, perhaps before something
     if hit is None:
         return None
     obj = hit.node.object
@@ -91,6 +93,11 @@ def enclosed(scene: Scene, frame: Frame, first, last) -> tuple[Node, ...]:
     numbers.update(nodes[k].id for k in np.flatnonzero(inside).tolist())
     found = (scene.data.node_of(number) for number in sorted(numbers))
     return tuple(node for node in found if node is not None)
+
+
+def _behind(scene: Scene, frame: Frame, x: int, y: int) -> RayHit | None:
+    """Return what a ray through the middle of a pixel meets."""
+    return scene.raycast(*frame.rays((x + 0.5, y + 0.5)))
 
 
 def without_surface(scene: Scene) -> list[Node]:

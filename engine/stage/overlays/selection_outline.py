@@ -68,6 +68,16 @@ def outline_pixels(frame: Frame, inside: np.ndarray, width: int = WIDTH) -> None
     frame.color[part][_grown(inside, width) & ~inside] = OUTLINE
 
 
+def closed(inside: np.ndarray, gaps: np.ndarray, width: int = WIDTH) -> np.ndarray:
+    """Return pixels, (H, W) of bool, with those of other pixels that lie in or beside them.
+
+    So lines that are drawn over an object, such as a grid's, do not part its outline.
+    """
+    if not inside.any() or not gaps.any():
+        return inside
+    return inside | (gaps & _grown(inside, width))
+
+
 def _grown(inside: np.ndarray, width: int) -> np.ndarray:
     """Return the pixels within ``width`` rows and columns of a set pixel."""
     for axis in (0, 1):

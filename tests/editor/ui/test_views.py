@@ -8,6 +8,7 @@ import engine3d as e3d
 from engine3d import events
 from engine3d.apps.editor.ui.view.ground_grid import GroundGrid, grid_sphere
 from engine3d.apps.editor.ui.view.standard_views import STANDARD_VIEWS
+from engine3d.stage.overlays.selection_outline import OUTLINE
 from engine3d.stage.views.viewpoint import Viewpoint
 
 
@@ -41,6 +42,31 @@ def test_the_grid_lies_below_things_and_is_no_node(fresh):
     click(fresh, x + columns[0], y + rows[0])
     assert fresh.workspace.document.selection.nodes == ()
     assert len(scene.nodes) == 3
+
+
+def test_the_grid_parts_neither_outlines_nor_clicks(fresh):
+    workspace = fresh.workspace
+    box = workspace.scene.add(e3d.box(), scale=2.0)  # half of it is below the ground
+    fresh._scene._overlays.shown["grid"] = True
+    workspace.document.selection.set([box])
+    settle(fresh)
+    x, y = scene_corner(fresh)
+    frame = fresh._scene._frame
+    lines, inside = frame.object_id > box.id, frame.object_id == box.id
+    rows, columns = np.nonzero(inside)
+    middle = (
+        slice(rows.mean().astype(int), rows.max() - 20),
+        slice(*np.percentile(columns, (30, 70)).astype(int)),
+    )
+    crossing = lines[middle]
+    assert crossing.sum() > 50
+    assert not (frame.color[middle] == OUTLINE).all(-1).any()
+    row, column = (
+        places[0] + part.start for places, part in zip(np.nonzero(crossing), middle, strict=True)
+    )
+    workspace.document.selection.set()
+    click(fresh, x + column, y + row)
+    assert workspace.document.selection.nodes == (box,)
 
 
 def test_the_grid_rests_until_the_view_is_twice_as_far(editor):

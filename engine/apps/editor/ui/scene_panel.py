@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
-from ....stage.overlays.selection_outline import outline_pixels
+from ....stage.overlays.selection_outline import closed, outline_pixels
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
@@ -131,7 +131,8 @@ class ScenePanel:
         self._seconds = time.perf_counter() - start
         ids = [] if workspace.display.as_rendered else self._selected_ids()
         if ids:
-            outline_pixels(frame, np.isin(frame.object_id, ids))
+            inside = np.isin(frame.object_id, ids)
+            outline_pixels(frame, closed(inside, self._pictures.grid_pixels(frame)))
         if not self._number:
             self._number = self._painter.add(frame.color, opaque=True)
         self._painter.replace(self._number, frame.color, opaque=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import functools
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from imgui_bundle import imgui
@@ -66,7 +67,7 @@ class MaterialFields:
         """Lay out which material is used, and by how many others."""
         now = name_of(material.name or "unnamed" for material in materials)
         entries = self._workspace.resources.entries()
-        options = [(entry.name, entry.thing) for entry in entries if entry.kind == "material"]
+        options = ((entry.name, entry.thing) for entry in entries if entry.kind == "material")
         chosen = self._fields.choice("Use", now, options)
         if chosen is not None and [chosen] != list(materials):
             each = [
@@ -91,7 +92,10 @@ class MaterialFields:
         self._fields.set_each(each, "Make a material of its own")
 
     def _draw_material(self, materials: Sequence[Material]) -> None:
-        rows = {name: row for name, row in PARAMETERS.items() if _counts(row, materials)}
+        rows = dict(_affecting(materials[0].is_physical))
+        if len({material.is_physical for material in materials}) > 1:
+            others = _affecting(not materials[0].is_physical)
+            rows = {name: row for name, row in rows.items() if name in others}
         for name in _FIRST:
             if name in rows:
                 self._draw_parameter(materials, name, rows.pop(name))
@@ -123,11 +127,8 @@ class MaterialFields:
     def _draw_slot(self, materials: Sequence[Material], slot: str, label: str) -> None:
         held = [textures_of(material).get(slot) for material in materials]
         now = name_of("none" if each is None else each.name or "unnamed" for each in held)
-        entries = self._workspace.resources.entries()
-        options: list[tuple[str, Any]] = [("none", (None,))]
-        options += [(entry.name, (entry.thing,)) for entry in entries if entry.kind == "texture"]
         imgui.push_id(slot)
-        chosen = self._fields.choice(label, now, options)
+        chosen = self._fields.choice(label, now, self._textures())
         if chosen is not None and any(chosen[0] is not each for each in held):
             self._fields.set(materials, {slot: chosen[0]})
         if self._fields.button("Load an image ..."):
@@ -136,6 +137,13 @@ class MaterialFields:
             height, width = held[-1].pixels.shape[:2]
             self._fields.note(f"{width} x {height}")
         imgui.pop_id()
+
+    def _textures(self) -> Iterator[tuple[str, tuple[Any]]]:
+        """Yield the textures to choose from, each in a tuple, and none."""
+        yield "none", (None,)
+        for entry in self._workspace.resources.entries():
+            if entry.kind == "texture":
+                yield entry.name, (entry.thing,)
 
 
 def _replaced(materials: Sequence[Material], number: int, chosen: Material) -> list[Material]:
@@ -148,15 +156,12 @@ def _with_mesh(held: Mesh | InstancedMesh, meshes: dict[Mesh, Mesh]) -> Mesh | I
     return meshes[held]
 
 
-def _counts(row: Parameter, materials: Sequence[Material]) -> bool:
-    """Return whether a parameter affects materials: most of glTF's need a physical one."""
-    return all(_affects(row, material) for material in materials)
-
-
-def _affects(row: Parameter, material: Material) -> bool:
-    if material.is_physical:
-        return bool(row.gltf) or not row.kind.width
-    return not row.part.startswith("KHR")
+@functools.cache
+def _affecting(is_physical: bool) -> dict[str, Parameter]:
+    """Return the parameters that affect a material: most of glTF's need a physical one."""
+    if is_physical:
+        return {k: row for k, row in PARAMETERS.items() if row.gltf or not row.kind.width}
+    return {k: row for k, row in PARAMETERS.items() if not row.part.startswith(_EXTENSION)}
 
 
 def _part(row: Parameter) -> str:

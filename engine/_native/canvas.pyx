@@ -141,6 +141,27 @@ cdef class Surface:
         if font.count > 0 and numbers.shape[0] > 0:
             font.draw(&self.canvas, x, y, numbers, native_color)
 
+    def outline(self, int x, int y, const int16_t[:, ::1] points not None, const uint8_t[::1] on_curve not None,
+                const int32_t[::1] ends not None, int units, const uint8_t[::1] color not None):
+        """Fill an outline whose origin is the pixel corner (x, y), with so many units a pixel, y up."""
+        cdef e3d_rgba native_color = rgba(color)
+        cdef e3d_outline outline = outline_of(points, on_curve, ends)
+        if not 1 <= units <= 256:
+            raise ValueError("a pixel has 1 to 256 units")
+        outline.scale_x = outline.scale_y = e3d_ratio(256, units)
+        outline.shift = 0
+        cdef e3d_glyph glyph
+        cdef bytearray alphas = bytearray()
+        cdef int32_t number = 0
+        add_alphas(alphas, &glyph, &outline)
+        cdef uint8_t *first = alphas
+        cdef e3d_font font
+        glyph.advance = 0
+        font.alphas, font.glyphs = first, &glyph
+        font.ascent = font.line_height = 0
+        with nogil:
+            e3d_canvas_glyphs(&self.canvas, x, y, &number, 1, &font, native_color)
+
 
 cdef class Glyphs:
     """The pictures of a font's glyphs, as many as were added.
@@ -179,17 +200,10 @@ cdef class Glyphs:
         advance : int
             To the next glyph's origin, in 1/256 pixel.
         """
-        cdef e3d_outline outline
+        cdef e3d_outline outline = outline_of(points, on_curve, ends)
         cdef int phase
         if units_across < 1 or units_up < 1:
             raise ValueError("a scale has a positive number of units")
-        if points.shape[1] != 2 or on_curve.shape[0] != points.shape[0]:
-            raise ValueError("points are (N, 2), and on_curve has as many")
-        check_ends(ends, points.shape[0])
-        outline.points, outline.contours = <int32_t>points.shape[0], <int32_t>ends.shape[0]
-        outline.xy = &points[0, 0] if outline.points else NULL
-        outline.on_curve = &on_curve[0] if outline.points else NULL
-        outline.ends = &ends[0] if outline.contours else NULL
         outline.scale_x = e3d_ratio(across, units_across)
         outline.scale_y = e3d_ratio(up, units_up)
         # What a failure left behind isn't a glyph.
@@ -202,20 +216,42 @@ cdef class Glyphs:
 
     cdef int add_phase(self, const e3d_outline *outline, int advance) except -1:
         cdef e3d_glyph glyph
-        glyph.first, glyph.advance, glyph.box = len(self.alphas), advance, e3d_outline_box(outline)
-        cdef size_t cells_count = <size_t>(glyph.box.width + 1) * glyph.box.height
-        cdef size_t alphas_count = <size_t>glyph.box.width * glyph.box.height
-        self.alphas.extend(bytes(alphas_count))
-        cdef uint8_t *alphas = self.alphas
-        cdef e3d_cell *cells = NULL
-        if cells_count > 0:
-            cells = <e3d_cell *>calloc(cells_count, sizeof(e3d_cell))
-            if cells == NULL:
-                raise MemoryError()
-            e3d_outline_alphas(outline, glyph.box, cells, alphas + glyph.first)
-            free(cells)
+        glyph.advance = advance
+        add_alphas(self.alphas, &glyph, outline)
         self.glyph_bytes.extend((<uint8_t *>&glyph)[:sizeof(e3d_glyph)])
         return 0
+
+
+cdef e3d_outline outline_of(
+    const int16_t[:, ::1] points, const uint8_t[::1] on_curve, const int32_t[::1] ends
+) except *:
+    """An outline without a scale; the arrays must live as long."""
+    cdef e3d_outline outline
+    if points.shape[1] != 2 or on_curve.shape[0] != points.shape[0]:
+        raise ValueError("points are (N, 2), and on_curve has as many")
+    check_ends(ends, points.shape[0])
+    outline.points, outline.contours = <int32_t>points.shape[0], <int32_t>ends.shape[0]
+    outline.xy = &points[0, 0] if outline.points else NULL
+    outline.on_curve = &on_curve[0] if outline.points else NULL
+    outline.ends = &ends[0] if outline.contours else NULL
+    return outline
+
+
+cdef int add_alphas(bytearray alphas, e3d_glyph *glyph, const e3d_outline *outline) except -1:
+    """Add the alphas of an outline, and tell the glyph where they are and which pixels they are for."""
+    glyph.first, glyph.box = len(alphas), e3d_outline_box(outline)
+    cdef size_t cells_count = <size_t>(glyph.box.width + 1) * glyph.box.height
+    cdef size_t alphas_count = <size_t>glyph.box.width * glyph.box.height
+    alphas.extend(bytes(alphas_count))
+    cdef uint8_t *all = alphas
+    cdef e3d_cell *cells = NULL
+    if cells_count > 0:
+        cells = <e3d_cell *>calloc(cells_count, sizeof(e3d_cell))
+        if cells == NULL:
+            raise MemoryError()
+        e3d_outline_alphas(outline, glyph.box, cells, all + glyph.first)
+        free(cells)
+    return 0
 
 
 cdef int check_ends(const int32_t[::1] ends, Py_ssize_t points) except -1:

@@ -9,6 +9,7 @@ The drawing itself is C (csrc/extras/canvas); docs/canvas.md gives its rules.
 
 from __future__ import annotations
 
+import math
 import numbers
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, cast, overload
@@ -40,6 +41,26 @@ _MAX_TEXT_SCALE = 4096
 _FONT_CODES = {code: code for code in (ord("\n"), *range(32, 127))}
 _FONT_CODES |= {ord(letter): code for code, letter in enumerate("àâçèéêëîïôùûœÀÇÉ", 128)}
 _REPLACEMENT_CODE = 127
+#: Units of smooth shapes in a pixel, and how large these may be, since their units have 16 bits.
+_UNITS, _LARGEST_SHAPE = 16, 2046
+_UPWARD = np.array([_UNITS, -_UNITS])
+#: Smooth shapes farther out than this are on no canvas.
+_FAR = 2.0**30
+_ROOT = math.sqrt(2.0)
+#: A circle around the origin: eight points on it, and control points of quadratic curves between.
+_EIGHTH, _CONTROL = _ROOT / 2, _ROOT - 1.0
+_ARC = ((1.0, 0.0), (1.0, _CONTROL), (_EIGHTH, _EIGHTH), (_CONTROL, 1.0))
+_CIRCLE = np.array(
+    [
+        *_ARC,
+        *((-y, x) for x, y in _ARC),
+        *((-x, -y) for x, y in _ARC),
+        *((y, -x) for x, y in _ARC),
+    ]
+)
+_ON_CIRCLE = np.array([1, 0] * 8, np.uint8)
+_ON_RING = np.array([1, 0] * 8 + [0, 1] * 8, np.uint8)
+_ONE_CIRCLE, _TWO_CIRCLES = np.array([16], np.int32), np.array([16, 32], np.int32)
 
 
 class Canvas(FixedNames):
@@ -319,6 +340,83 @@ class Canvas(FixedNames):
         x, y, width, height = _numbers("x, y, width and height", x, y, width, height)
         self._surface.rectangle(x, y, width, height, _color_bytes(color), flag(fill, "fill"))
 
+    def polygon(self, xy: ArrayLike | Sequence[ArrayLike], color: ColorLike) -> None:
+        """Fill a polygon with smooth edges: a pixel takes the share of it that is covered.
+
+        Parameters
+        ----------
+        xy : array_like, shape (N, 2), or sequence of such
+            The corners in pixels, rounded to 1/16 pixel; or several contours. What two contours
+            wind around in opposite directions is a hole. A non-finite corner draws nothing.
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255.
+
+        Raises
+        ------
+        InvalidArgumentError
+            Also if it is 2046 pixels wide or high, or more, on the canvas or not.
+        """
+        contours = [_positions(contour, 2, "xy") for contour in _contours(xy)]
+        contours = [contour for contour in contours if len(contour)]
+        if contours:
+            points = contours[0] if len(contours) == 1 else np.concatenate(contours)
+            ends = np.cumsum([len(contour) for contour in contours], dtype=np.int32)
+            self._fill(points, np.ones(len(points), np.uint8), ends, color)
+
+    def disc(
+        self, x: float, y: float, radius: float, color: ColorLike, *, width: float | None = None
+    ) -> None:
+        """Fill a disc with a smooth edge, or a ring.
+
+        Parameters
+        ----------
+        x, y : float
+            The centre, in pixels.
+        radius : float
+            At most 1000 pixels.
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255.
+        width : float, optional
+            Draw a ring so wide, inward from the radius.
+
+        Raises
+        ------
+        InvalidArgumentError
+            Also if a radius or width is negative, or the disc too large.
+        """
+        x, y, radius = _numbers("x, y and radius", x, y, radius)
+        inner = 0.0 if width is None else max(radius - _numbers("width", width)[0], 0.0)
+        if not 0.0 <= inner <= radius:
+            raise InvalidArgumentError("radius and width must not be negative")
+        points, flags, ends = radius * _CIRCLE, _ON_CIRCLE, _ONE_CIRCLE
+        if inner > 0.0:
+            points = np.concatenate([points, inner * _CIRCLE[::-1]])
+            flags, ends = _ON_RING, _TWO_CIRCLES
+        self._fill(points + (x, y), flags, ends, color)
+
+    def _fill(
+        self,
+        points: NDArray[np.float64],
+        on_curve: NDArray[np.uint8],
+        ends: NDArray[np.int32],
+        color: Any,
+    ) -> None:
+        """Fill contours of straight and curved parts; see `e3d_outline` for the arrays."""
+        color_bytes = _color_bytes(color)
+        (left, top), (right, bottom) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        sides = right - left, bottom - top
+        if not all(map(math.isfinite, sides)):
+            return
+        if max(sides) >= _LARGEST_SHAPE:
+            raise InvalidArgumentError(
+                f"a polygon is less than {_LARGEST_SHAPE} pixels wide and high, not {shown(sides)}"
+            )
+        if max(abs(left), abs(top)) > _FAR:
+            return
+        left, top = math.floor(left), math.floor(top)
+        units = np.rint((points - (left, top)) * _UPWARD).astype(np.int16)
+        self._surface.outline(left, top, units, on_curve, ends, _UNITS, color_bytes)
+
     def text(
         self,
         x: float,
@@ -447,6 +545,15 @@ def _positions(values: ArrayLike, columns: int, name: str) -> NDArray[np.float64
     if positions.ndim != 2 or positions.shape[1] != columns:
         raise InvalidArgumentError(f"{name} must be (N, {columns}), not {positions.shape}")
     return positions
+
+
+def _contours(xy: Any) -> Sequence[Any]:
+    """Return the contours of a polygon, which may be given as one array of corners."""
+    if isinstance(xy, np.ndarray):
+        return [xy] if xy.ndim < 3 else list(xy)
+    rows = list(xy)
+    is_one = all(np.ndim(row) == 1 for row in rows)
+    return [rows] if is_one else rows
 
 
 def _numbers(what: str, *values: float) -> list[float]:

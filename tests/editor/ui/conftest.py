@@ -20,7 +20,7 @@ def editor(monkeypatch, tmp_path):
     with EditorWindow(str(path), size=SIZE) as editor:
         editor.window.present = lambda pixels: None  # nobody looks, and nobody waits for a screen
         editor._scene._overlays.shown |= dict.fromkeys(
-            ("icons", "names", "outlines", "grid", "preview"), False
+            ("icons", "names", "outlines", "grid", "preview", "ball"), False
         )
         editor._scene._draw_times = lambda corner: None
         settle(editor)

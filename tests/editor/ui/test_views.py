@@ -6,8 +6,10 @@ from editor.ui.editor_hands import click, do, drag, find, press, scene_corner, s
 
 import engine3d as e3d
 from engine3d import events
+from engine3d.apps.editor.ui.view.clickable_axes import MARGIN
 from engine3d.apps.editor.ui.view.ground_grid import GroundGrid, grid_sphere
 from engine3d.apps.editor.ui.view.standard_views import STANDARD_VIEWS
+from engine3d.stage.overlays.axes_ball import RADIUS, BallPlace, tips
 from engine3d.stage.overlays.selection_outline import OUTLINE
 from engine3d.stage.views.viewpoint import Viewpoint
 
@@ -197,3 +199,33 @@ def test_the_list_of_keys_opens_and_closes(editor):
     assert (settle(editor) == before).all()
     menus = {menu for _, _, menu in editor._keys._rows}
     assert menus == {"File", "Edit", "View", "Tools", "Help"}
+
+
+def test_a_click_on_the_ball_of_axes_looks_along_one(fresh):
+    workspace = fresh.workspace
+    workspace.document.selection.set([find(fresh, "camera")])
+    fresh._scene._overlays.shown["ball"] = True
+    x, y = scene_corner_without_ball(fresh)
+    frame = fresh._scene._frame
+    radius = RADIUS
+    place = BallPlace(x + frame.width - MARGIN - radius, y + MARGIN + radius, radius)
+    for name, ahead in (("+X", (-1, 0, 0)), ("+Y", (0, -1, 0)), ("-Z", (0, 0, 1))):
+        workspace.view.azimuth, workspace.view.elevation = 0.5, 0.3
+        settle(fresh)
+        tip = next(tip for tip in tips(workspace.view.rotation(), place) if tip.name == name)
+        before = settle(fresh)
+        do(fresh, events.MouseMotion(0, 0, int(tip.x), int(tip.y)))
+        assert (settle(fresh) != before).any(), "it lights up"
+        click(fresh, tip.x, tip.y)
+        assert (-workspace.view.rotation()[:, 2]).round(9).tolist() == list(ahead)
+    assert workspace.document.selection.active.name == "camera", "nothing was selected"
+
+
+def scene_corner_without_ball(editor):
+    shown = editor._scene._overlays.shown
+    shown["ball"] = False
+    settle(editor)
+    corner = scene_corner(editor)
+    shown["ball"] = True
+    settle(editor)
+    return corner

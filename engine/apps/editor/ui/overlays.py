@@ -37,6 +37,7 @@ LONGEST = 1.5
 #: What can be shown: its name in the menu, and whether it shows at first.
 SHOWN = {
     "grid": ("Grid and axes", True),
+    "ball": ("Ball of axes", True),
     "icons": ("Lights, cameras, empties", True),
     "names": ("Their names", True),
     "outlines": ("Cones, surfaces and frustums of the selection", True),

@@ -22,6 +22,7 @@ from .panel_layout import begin_panel
 from .scene_pictures import ScenePictures
 from .scene_tools import draw_tools
 from .view.camera_preview import CameraPreview
+from .view.clickable_axes import ClickableAxes
 from .workspace import Workspace
 
 #: A press and release within this many pixels are a click.
@@ -58,6 +59,7 @@ class ScenePanel:
         self._overlays = Overlays(workspace)
         self._gizmo = GizmoHandles(workspace)
         self._preview = CameraPreview(workspace, painter)
+        self._axes = ClickableAxes(workspace, painter)
         self._seconds = 0.0
         self._corner = imgui.ImVec2(0.0, 0.0)
         self._is_hovered = False
@@ -107,7 +109,9 @@ class ScenePanel:
         if not self._workspace.display.as_rendered:
             self._overlays.draw(self._frame, corner)
             self._draw_times(corner)
-            captured = self._gizmo.draw(corner, size)
+            if self._overlays.shown["ball"]:
+                captured = self._axes.draw(self._frame, corner, hovered)
+            captured = self._gizmo.draw(corner, size) or captured
             if self._overlays.shown["preview"]:
                 self._preview.draw(corner, size)
             self._draw_camera_name(corner)

@@ -67,8 +67,14 @@ _OTHERS: dict[str, Callable[[], Any]] = {
 }
 #: The sizes of area lights, those that they have.
 AREA_SIZES = ("width", "height", "length", "radius")
-#: The titles of all that can be added.
-ADDED = ("Empty", *PRIMITIVES, *(title for title in _OTHERS if title != "Empty"))
+#: The titles of all that can be added, by groups.
+GROUPS = (
+    ("Empty",),
+    tuple(PRIMITIVES),
+    tuple(title for title in _OTHERS if title.endswith("light")),
+    ("Camera",),
+)
+ADDED = tuple(title for group in GROUPS for title in group)
 
 
 def add_new(scene: Scene, title: str, view: Viewpoint, parent: Node | None = None) -> Node:

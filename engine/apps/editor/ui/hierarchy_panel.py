@@ -8,7 +8,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node
-from ..adding import ADDED
+from ..adding import GROUPS
 from ..hierarchy import Row
 from ..node_commands import Reparent
 from ..value_commands import SetValues
@@ -224,6 +224,9 @@ class HierarchyPanel:
 
 def draw_add_menu(workspace: Workspace, parent: Node | None = None) -> None:
     """Lay out the menu of things to add, below a node or at the top."""
-    for name in ADDED:
-        if imgui.menu_item_simple(name):
-            add(workspace, name, parent)
+    for number, titles in enumerate(GROUPS):
+        if number:
+            imgui.separator()
+        for name in titles:
+            if imgui.menu_item_simple(name):
+                add(workspace, name, parent)

@@ -7,6 +7,7 @@ what they light, selected cameras what they see.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from imgui_bundle import imgui
@@ -21,6 +22,7 @@ from ..node_shapes import MOST_EDGES, box_lines, camera_frustum, collider_lines,
 from ..picking import without_surface
 from .workspace import Workspace
 
+Color: TypeAlias = tuple[float, float, float, float]
 _BOX = (0.35, 0.8, 1.0, 0.8)
 _FRUSTUM = (1.0, 0.9, 0.4, 0.8)
 _COLLIDER = (0.45, 1.0, 0.55, 0.9)
@@ -64,6 +66,9 @@ class Overlays:
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self.shown = {name: at_first for name, (_, at_first) in SHOWN.items()}
+        self._made_of: tuple = ()
+        self._lines: list[tuple[np.ndarray, Color]] = []
+        self._names: list[tuple[str, list[float]]] = []
 
     def draw_menu(self) -> None:
         """Lay out the menu of overlays."""
@@ -76,16 +81,30 @@ class Overlays:
 
     def draw(self, frame: Frame, corner) -> None:
         """Draw the chosen overlays over a frame with its top left corner at a window position."""
+        selection = self._workspace.document.selection
+        key = frame, selection.version, tuple(self.shown.values())
+        if key != self._made_of:
+            self._lines, self._names, self._made_of = [], [], key
+            self._collect_icons(frame)
+            for node in selection.nodes[-MOST_OUTLINES:]:
+                for segments, color in self._outlines(node, frame):
+                    self._collect(frame, segments, color)
         lines = imgui.get_window_draw_list()
         lines.push_clip_rect(corner, (corner.x + frame.width, corner.y + frame.height), True)
-        self._draw_icons(lines, frame, corner)
-        for node in self._workspace.document.selection.nodes[-MOST_OUTLINES:]:
-            for segments, color in self._outlines(node, frame):
-                _draw_lines(lines, frame, corner, segments, color)
+        for ends, color in self._lines:
+            _draw_lines(lines, ends + np.array([corner.x, corner.y]), color)
+        _draw_names(lines, corner, self._names)
         lines.pop_clip_rect()
 
-    def _draw_icons(self, lines, frame: Frame, corner) -> None:
-        """Draw the icons and names of nodes without surface."""
+    def _collect(self, frame: Frame, segments: np.ndarray, color: Color) -> None:
+        """Note world lines for drawing; those with an end behind the camera are left out."""
+        pixels, depths = frame.project(segments.reshape(-1, 3))
+        shown = (depths.reshape(-1, 2) > 0).all(axis=1)
+        shown &= np.isfinite(pixels).reshape(-1, 4).all(axis=1)
+        self._lines.append((pixels.reshape(-1, 2, 2)[shown], color))
+
+    def _collect_icons(self, frame: Frame) -> None:
+        """Note the icons and names of nodes without surface."""
         selection = self._workspace.document.selection
         chosen = [node for node in selection.nodes[-MOST_OUTLINES:] if _is_empty(node)]
         nodes = list(dict.fromkeys([*chosen, *without_surface(self._workspace.scene)]))
@@ -95,24 +114,21 @@ class Overlays:
             return
         nodes.sort(key=lambda node: node not in selection)  # their names come first
         places = np.array([node.world_pose[:3, 3] for node in nodes])
-        pixels, depths = frame.project(places)
+        reaches = self._reaches(frame, places).tolist()
         if self.shown["icons"]:
-            for is_selected in (False, True):
+            for color, is_selected in ((_ICON, False), (_SELECTED, True)):
                 drawn = [
-                    icon(node, float(reach))
-                    for node, reach in zip(nodes, self._reaches(frame, places), strict=True)
+                    icon(node, reach)
+                    for node, reach in zip(nodes, reaches, strict=True)
                     if (node in selection) == is_selected and reach > 0.0
                 ]
                 if drawn:
-                    color = _SELECTED if is_selected else _ICON
-                    _draw_lines(lines, frame, corner, np.concatenate(drawn), color)
+                    self._collect(frame, np.concatenate(drawn), color)
         if self.shown["names"]:
-            texts = [
-                (node.name, pixel)
-                for node, pixel, depth in zip(nodes, pixels.tolist(), depths.tolist(), strict=True)
-                if depth > 0.0 and node.name
-            ]
-            _draw_names(lines, corner, texts[:MOST_NAMES])
+            pixels = frame.project(places)[0].tolist()
+            named = zip(nodes, pixels, reaches, strict=True)
+            texts = [(node.name, pixel) for node, pixel, reach in named if reach > 0.0]
+            self._names = [text for text in texts if text[0]][:MOST_NAMES]
 
     def _reaches(self, frame: Frame, places: np.ndarray) -> np.ndarray:
         """Return how many world units at each place are as long as an icon; 0 if it is unseen."""
@@ -175,11 +191,8 @@ def _overlap(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
-def _draw_lines(lines, frame: Frame, corner, segments: np.ndarray, color) -> None:
-    """Draw world lines on dark ones; those with an end behind the camera are left out."""
-    pixels, depths = frame.project(segments.reshape(-1, 3))
-    shown = (depths.reshape(-1, 2) > 0).all(axis=1) & np.isfinite(pixels).reshape(-1, 4).all(axis=1)
-    ends = (pixels.reshape(-1, 2, 2)[shown] + np.array([corner.x, corner.y])).tolist()
+def _draw_lines(lines, ends: np.ndarray, color: Color) -> None:
+    """Draw lines between pixels, (N, 2, 2), on dark ones."""
     for packed, width in ((imgui.get_color_u32(_SHADOW), 3.0), (imgui.get_color_u32(color), 1.0)):
-        for start, end in ends:
+        for start, end in ends.tolist():
             lines.add_line(start, end, packed, width)

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.apps.editor.adding import ADDED, add_new, free_name, usual_size
 from engine3d.apps.editor.document import SceneDocument
-from engine3d.apps.editor.node_commands import AddNodes
-from engine3d.apps.editor.primitive_shapes import (
+from engine3d.apps.editor.new_things.adding import ADDED, add_new, free_name, usual_size
+from engine3d.apps.editor.new_things.primitive_shapes import (
     PRIMITIVES,
     arguments_of,
     changed_primitives,
     new_primitive,
     title_of,
 )
+from engine3d.apps.editor.node_commands import AddNodes
 from engine3d.stage.views.viewpoint import UP_DIRECTIONS, Viewpoint
 
 

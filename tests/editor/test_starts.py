@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.apps.editor.starts import STARTS
+from engine3d.apps.editor.new_things.starts import STARTS
 from engine3d.model.scene.lights import LIGHTS
 
 

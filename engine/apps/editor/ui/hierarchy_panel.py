@@ -8,8 +8,8 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node
-from ..adding import GROUPS
 from ..hierarchy import Row
+from ..new_things.adding import GROUPS
 from ..node_commands import Reparent
 from ..value_commands import SetValues
 from .panel_layout import begin_panel

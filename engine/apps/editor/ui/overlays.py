@@ -20,6 +20,7 @@ from ....model.scene.nodes import Node
 from ....rendering.frame import Frame
 from ..node_shapes import MOST_EDGES, box_lines, camera_frustum, collider_lines, icon, outline
 from ..picking import without_surface
+from .style import FONT_PIXELS
 from .workspace import Workspace
 
 Color: TypeAlias = tuple[float, float, float, float]
@@ -29,7 +30,8 @@ _COLLIDER = (0.45, 1.0, 0.55, 0.9)
 _NORMAL = (0.5, 1.0, 0.5, 0.7)
 _ICON, _SELECTED = (1.0, 0.92, 0.6, 1.0), (1.0, 0.63, 0.16, 1.0)
 _SHADOW = (0.0, 0.0, 0.0, 0.55)
-ICON_PIXELS = 26.0
+#: How large an icon is, in heights of the font.
+ICON_SIZE = 1.6
 #: More names would cover the scene; those of selected nodes come first.
 MOST_NAMES = 60
 #: Of more selected nodes, the last ones have their outlines.
@@ -136,7 +138,8 @@ class Overlays:
         (here, near), (there, _) = frame.project(places), frame.project(places + right)
         pixels = np.hypot(*(there - here).T)
         seen = (near > 0.0) & np.isfinite(pixels) & (pixels > 0.0)
-        return np.where(seen, ICON_PIXELS / np.where(seen, pixels, 1.0), 0.0)
+        size = ICON_SIZE * imgui.get_font_size()
+        return np.where(seen, size / np.where(seen, pixels, 1.0), 0.0)
 
     def _outlines(self, node: Node, frame: Frame):
         """Yield the outlines of a selected node, with their colours."""
@@ -178,7 +181,8 @@ def _draw_names(lines, corner, texts: Sequence[tuple[str, list[float]]]) -> None
     taken: list[tuple[float, float, float, float]] = []
     for text, (x, y) in texts:
         size = imgui.calc_text_size(text)
-        left, top = corner.x + x + ICON_PIXELS / 2, corner.y + y - size.y / 2
+        aside = ICON_SIZE / 2 * imgui.get_font_size()
+        left, top = corner.x + x + aside, corner.y + y - size.y / 2
         box = (left - 2.0, top, left + size.x + 2.0, top + size.y)
         if any(_overlap(box, other) for other in taken):
             continue
@@ -193,6 +197,8 @@ def _overlap(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
 
 def _draw_lines(lines, ends: np.ndarray, color: Color) -> None:
     """Draw lines between pixels, (N, 2, 2), on dark ones."""
-    for packed, width in ((imgui.get_color_u32(_SHADOW), 3.0), (imgui.get_color_u32(color), 1.0)):
+    width = imgui.get_font_size() / FONT_PIXELS
+    for name, wide in ((_SHADOW, 3.0 * width), (color, width)):
+        packed = imgui.get_color_u32(name)
         for start, end in ends.tolist():
-            lines.add_line(start, end, packed, width)
+            lines.add_line(start, end, packed, wide)

@@ -161,7 +161,9 @@ class ScenePanel:
         text = f"Through {node.name or 'a camera'}: turn the view to leave it"
         middle = corner.x + (self._frame.width - imgui.calc_text_size(text).x) / 2
         color = imgui.get_color_u32(RECTANGLE)
-        imgui.get_window_draw_list().add_text((middle, corner.y + 8.0), color, text)
+        imgui.get_window_draw_list().add_text(
+            (middle, corner.y + imgui.get_font_size() / 2), color, text
+        )
 
     def _selected_ids(self) -> list[int]:
         """Return the IDs of the selected nodes and their subtrees."""

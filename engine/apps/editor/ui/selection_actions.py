@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ....model.scene.nodes import Node
-from ..adding import add_new
 from ..gizmo import on_ground
+from ..new_things.adding import add_new
 from ..node_commands import (
     AddNodes,
     DeleteNodes,

@@ -11,7 +11,7 @@ import os
 from imgui_bundle import imgui
 
 from ....errors import printable
-from ..starts import STARTS
+from ..new_things.starts import STARTS
 from .files import Files
 from .workspace import Workspace
 

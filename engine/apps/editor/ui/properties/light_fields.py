@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 
 from .....choices import Falloff, LightShadow
 from .....model.scene.lights import DirectionalLight, Light
-from ...adding import AREA_SIZES
+from ...new_things.adding import AREA_SIZES
 from ..workspace import Workspace
 from .fields import Fields, name_of
 

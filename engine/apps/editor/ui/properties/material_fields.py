@@ -54,7 +54,7 @@ class MaterialFields:
             if self._fields.folder(f"{title}###material {number}"):
                 imgui.push_id(number)
                 self._draw_use(nodes, meshes, number, materials)
-                self._draw_material(materials)
+                self.draw_values(materials)
                 imgui.pop_id()
 
     def _draw_use(
@@ -91,7 +91,8 @@ class MaterialFields:
         each = [(node, {"object": _with_mesh(node.object, meshes)}) for node in nodes]
         self._fields.set_each(each, "Make a material of its own")
 
-    def _draw_material(self, materials: Sequence[Material]) -> None:
+    def draw_values(self, materials: Sequence[Material]) -> None:
+        """Lay out what materials are made of."""
         rows = dict(_affecting(materials[0].is_physical))
         if len({material.is_physical for material in materials}) > 1:
             others = _affecting(not materials[0].is_physical)

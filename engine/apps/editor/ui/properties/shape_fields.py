@@ -9,7 +9,7 @@ from .....errors import InvalidArgumentError
 from .....model.geometry.mesh import Mesh
 from .....model.scene.instances import InstancedMesh
 from .....model.scene.nodes import Node
-from ...primitive_shapes import (
+from ...new_things.primitive_shapes import (
     PARTS,
     PRIMITIVES,
     arguments_of,

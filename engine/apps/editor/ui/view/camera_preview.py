@@ -15,7 +15,7 @@ from ..workspace import Workspace
 
 #: The picture's width as a part of the scene's, and its own sides' ratio.
 SHARE, ASPECT = 0.28, 16 / 9
-MARGIN, EDGE = 10.0, 2.0
+_MARGIN, _EDGE, _INSET = 0.6, 0.12, 0.3  # heights of the font
 _LEAST_WIDTH = 64
 _FRAME = (0.0, 0.0, 0.0, 0.8)
 _TEXT = (1.0, 1.0, 1.0, 0.9)
@@ -55,13 +55,16 @@ class CameraPreview:
         if width < _LEAST_WIDTH or not 1 <= height < size[1]:
             return
         self._render(node, (width, height))
-        right, bottom = corner.x + size[0] - MARGIN, corner.y + size[1] - MARGIN
+        letter = imgui.get_font_size()
+        edge, inset, margin = (round(part * letter) for part in (_EDGE, _INSET, _MARGIN))
+        right, bottom = corner.x + size[0] - margin, corner.y + size[1] - margin
         first, last = (right - width, bottom - height), (right, bottom)
         lines = imgui.get_window_draw_list()
-        edge = (first[0] - EDGE, first[1] - EDGE), (right + EDGE, bottom + EDGE)
-        lines.add_rect_filled(*edge, imgui.get_color_u32(_FRAME))
+        around = (first[0] - edge, first[1] - edge), (right + edge, bottom + edge)
+        lines.add_rect_filled(*around, imgui.get_color_u32(_FRAME))
         lines.add_image(imgui.ImTextureRef(self._number), first, last)
-        lines.add_text((first[0] + 6.0, first[1] + 4.0), imgui.get_color_u32(_TEXT), node.name)
+        place = first[0] + inset, first[1] + inset
+        lines.add_text(place, imgui.get_color_u32(_TEXT), node.name)
 
     def _render(self, node: Node, size: tuple[int, int]) -> None:
         workspace = self._workspace

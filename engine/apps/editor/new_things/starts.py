@@ -9,22 +9,22 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from ...base import linalg
-from ...model import primitives
-from ...model.environments.environment import Environment, named_environment
-from ...model.geometry.mesh import Mesh
-from ...model.materials.material import Material
-from ...model.scene.cameras import PerspectiveCamera
-from ...model.scene.lights import (
+from ....base import linalg
+from ....model import primitives
+from ....model.environments.environment import Environment, named_environment
+from ....model.geometry.mesh import Mesh
+from ....model.materials.material import Material
+from ....model.scene.cameras import PerspectiveCamera
+from ....model.scene.lights import (
     WHITE_INTENSITY,
     DirectionalLight,
     PointLight,
     RectangleLight,
 )
-from ...model.scene.nodes import Node
-from ...model.scene.scene import Scene
-from ...stage.overlays.theme import DARK, LIGHT
-from ..scenes.solar import EARTH_ORBIT, solar
+from ....model.scene.nodes import Node
+from ....model.scene.scene import Scene
+from ....stage.overlays.theme import DARK, LIGHT
+from ...scenes.solar import EARTH_ORBIT, solar
 
 #: Towards the sun of the street, which is in the afternoon.
 _SUN = (0.55, 0.6, 0.45)

@@ -10,11 +10,11 @@ import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from ...base.held_values import same
-from ...model import primitives
-from ...model.geometry.mesh import Mesh
-from ...model.geometry.origins import Came, PrimitiveOrigin, has_own_materials, origin_of
-from ...model.scene.scene import Scene
+from ....base.held_values import same
+from ....model import primitives
+from ....model.geometry.mesh import Mesh
+from ....model.geometry.origins import Came, PrimitiveOrigin, has_own_materials, origin_of
+from ....model.scene.scene import Scene
 
 #: The primitives that the editor offers, by their titles.
 PRIMITIVES: dict[str, Callable[..., Mesh]] = {

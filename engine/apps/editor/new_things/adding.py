@@ -12,15 +12,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...base import linalg
-from ...model.geometry.mesh import Mesh
-from ...model.scene.ambient_lights import HemisphereLight
-from ...model.scene.cameras import PerspectiveCamera
-from ...model.scene.lights import DIRECT_LIGHTS, AreaLight, DirectionalLight, PointLight, SpotLight
-from ...model.scene.nodes import Node
-from ...model.scene.orbiting import home_axes, orbit_axes
-from ...model.scene.scene import Scene
-from ...stage.views.viewpoint import Viewpoint
+from ....base import linalg
+from ....model.geometry.mesh import Mesh
+from ....model.scene.ambient_lights import HemisphereLight
+from ....model.scene.cameras import PerspectiveCamera
+from ....model.scene.lights import DIRECT_LIGHTS, AreaLight, DirectionalLight, PointLight, SpotLight
+from ....model.scene.nodes import Node
+from ....model.scene.orbiting import home_axes, orbit_axes
+from ....model.scene.scene import Scene
+from ....stage.views.viewpoint import Viewpoint
 from .free_places import free_place
 from .primitive_shapes import PRIMITIVES, new_primitive
 

@@ -11,11 +11,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..._native.scene_graph import SHOWN
-from ...base import linalg
-from ...model.scene.orbiting import home_axes
-from ...model.scene.scene import Scene
-from ...stage.views.viewpoint import Viewpoint
+from ...._native.scene_graph import SHOWN
+from ....base import linalg
+from ....model.scene.orbiting import home_axes
+from ....model.scene.scene import Scene
+from ....stage.views.viewpoint import Viewpoint
 
 #: Cells from the middle to each side of the grid.
 REACH = 24

@@ -15,7 +15,7 @@ from .....model.geometry.mesh import Mesh
 from .....model.scene.orbiting import home_axes
 from .....model.scene.scene import Scene
 from .....model.scene.staged_scene import StagedScene
-from .....stage.overlays.grid_lines import REACH, grid
+from .....stage.overlays.grid_lines import MAJOR_EVERY, REACH, grid, grid_step
 from .....stage.overlays.overlay import AXIS_COLORS
 from .....stage.views.viewpoint import Sphere, Viewpoint
 
@@ -64,9 +64,14 @@ class GroundGrid:
 
 def axes(ground: Sphere, up: tuple[float, float, float]) -> Mesh:
     """Return the axes through the origin as coloured lines: two as long as the grid, one short."""
-    home = home_axes(up)
-    reach = REACH * ground.radius + float(linalg.length(np.asarray(ground.center)))
-    ends = [(-reach, reach), (0.0, 0.25 * ground.radius), (-reach, reach)]
+    home, step = home_axes(up), grid_step(ground.radius)
+    squares = math.ceil(REACH * ground.radius / step)
+    reach = (squares + -squares % MAJOR_EVERY) * step
+    middle = linalg.dot(home, np.asarray(ground.center))
+    ends = [
+        (float(place) - reach, float(place) + reach) for place in np.round(middle / step) * step
+    ]
+    ends[1] = 0.0, ground.radius / 4
     positions = [home[k] * end for k in range(3) for end in ends[k]]
     colors = [AXIS_COLORS[int(np.argmax(np.abs(home[k])))] for k in range(3) for _ in range(2)]
     return Mesh(

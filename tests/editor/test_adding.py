@@ -5,7 +5,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.apps.editor.document import SceneDocument
-from engine3d.apps.editor.new_things.adding import ADDED, add_new, free_name, usual_size
+from engine3d.apps.editor.new_things.adding import GROUPS, add_new, free_name, usual_size
 from engine3d.apps.editor.new_things.primitive_shapes import (
     PRIMITIVES,
     arguments_of,
@@ -15,6 +15,8 @@ from engine3d.apps.editor.new_things.primitive_shapes import (
 )
 from engine3d.apps.editor.node_commands import AddNodes
 from engine3d.stage.views.viewpoint import UP_DIRECTIONS, Viewpoint
+
+TITLES = [title for group in GROUPS for title in group]
 
 
 @pytest.fixture(params=UP_DIRECTIONS)
@@ -73,7 +75,7 @@ def test_a_sky_takes_no_place_and_a_floor_none_either():
     assert add_new(scene, "Box", view).translation.tolist() == [0.0, 0.5, 0.0]
 
 
-@pytest.mark.parametrize("title", ADDED)
+@pytest.mark.parametrize("title", TITLES)
 def test_adding_is_one_step_and_selects(title):
     document, view = SceneDocument(), Viewpoint(np.zeros(3), 10.0)
     document.do(AddNodes(document.scene, lambda scene: add_new(scene, title, view), "Add"))
@@ -86,7 +88,7 @@ def test_adding_is_one_step_and_selects(title):
 
 def test_lamps_shine_down_on_the_ground():
     view = Viewpoint(np.zeros(3), 10.0)
-    for title in ADDED:
+    for title in TITLES:
         if title.endswith("light") and not title.startswith(("Hemisphere", "Tube")):
             scene = e3d.Scene(ambient=(0, 0, 0))
             scene.add(e3d.plane((30, 30)))

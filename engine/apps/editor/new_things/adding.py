@@ -74,7 +74,6 @@ GROUPS = (
     tuple(title for title in _OTHERS if title.endswith("light")),
     ("Camera",),
 )
-ADDED = tuple(title for group in GROUPS for title in group)
 
 
 def add_new(scene: Scene, title: str, view: Viewpoint, parent: Node | None = None) -> Node:
@@ -84,7 +83,7 @@ def add_new(scene: Scene, title: str, view: Viewpoint, parent: Node | None = Non
     ----------
     scene : Scene
     title : str
-        One of `ADDED`.
+        One of those in `GROUPS`.
     view : Viewpoint
         Where one looks.
     parent : Node, optional

@@ -27,15 +27,15 @@ def rotated(axis, degrees):
 def test_turns_are_whole_steps_about_the_axis(axis):
     made = single(rotated(axis, 59.98))
     expected = rotated(axis, 60)
-    np.testing.assert_allclose(dragged_pose("turn", START, made, 15), expected, atol=1e-12)
-    free = dragged_pose("turn", START, made)
+    np.testing.assert_allclose(dragged_pose("rotate", START, made, 15), expected, atol=1e-12)
+    free = dragged_pose("rotate", START, made)
     np.testing.assert_allclose(free, rotated(axis, 59.98), atol=1e-5)
     np.testing.assert_allclose(linalg.length(free[:3, :3].T), (1, 2, 0.5), atol=1e-12)
     assert free[:3, 3].tolist() == [1, 2, 3]
 
 
 def test_a_turn_of_nothing_is_the_pose():
-    assert dragged_pose("turn", START, START.copy(), 15).tobytes() == START.tobytes()
+    assert dragged_pose("rotate", START, START.copy(), 15).tobytes() == START.tobytes()
 
 
 def test_moves_are_whole_steps_along_the_axes():

@@ -80,6 +80,7 @@ ARROWS = {
     "editor -> desktop",
     "editor -> events",
     "editor -> imgui_painter",
+    "editor -> scenes",
     "editor -> viewer",
     "notebook -> events",
     "notebook -> viewer",

@@ -67,6 +67,11 @@ class Console:
             self._entries.append(Entry(self.version, time.time(), level, shown))
             self.version += 1
 
+    def write_once(self, level: str, text: str) -> None:
+        """Add an entry, unless it is the same as the last one."""
+        if not self._entries or self._entries[-1][2:] != (level, printable(text)):
+            self.write(level, text)
+
     def clear(self) -> None:
         """Forget all entries."""
         self._entries.clear()

@@ -127,9 +127,20 @@ class SceneDocument:
 
     @classmethod
     def begin(
-        cls, path: str | os.PathLike[str], *, console: Console | None = None
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        console: Console | None = None,
+        new: Callable[[], Scene] = Scene,
     ) -> SceneDocument:
-        """Open a file as `open` does; a missing scene file starts an empty scene.
+        """Open a file as `open` does; a missing scene file starts a new scene.
+
+        Parameters
+        ----------
+        path : path-like
+        console : Console, optional
+        new : callable
+            Returns the new scene; by default an empty one.
 
         Raises
         ------
@@ -140,7 +151,7 @@ class SceneDocument:
             return cls.open(path, console=console)
         if not os.path.isdir(os.path.dirname(name)):
             raise FileAccessError("cannot begin a scene: its folder is not there", path)
-        document = cls(console=console)
+        document = cls(new(), console=console)
         document.path, document._state = name, FileState(name)
         document.console.write("action", f"Begin {name}")
         return document

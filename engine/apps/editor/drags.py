@@ -30,7 +30,7 @@ def dragged_pose(
 
     Parameters
     ----------
-    tool : {"move", "turn", "scale"}
+    tool : {"move", "rotate", "scale"}
     start, made : (4, 4) float64
         World poses: at the beginning, and what the gizmo made of it.
     step : float, optional
@@ -40,7 +40,7 @@ def dragged_pose(
     """
     if tool == "move":
         return _moved(start, made, step, is_local)
-    return _turned(start, made, step) if tool == "turn" else _scaled(start, made, step)
+    return _turned(start, made, step) if tool == "rotate" else _scaled(start, made, step)
 
 
 def _moved(start, made, step: float | None, is_local: bool) -> NDArray[np.float64]:

@@ -15,30 +15,31 @@ from ...model.scene.nodes import Node
 from .history import Command
 
 
-class SetValues(Command):
-    """Assigns attributes of objects.
+class SetEach(Command):
+    """Assigns attributes of objects, each its own.
 
     Parameters
     ----------
-    things : iterable of Node, Material, Texture, Mesh, light, camera or Scene
-    values : dict of str to object
-        By attribute, for all of the things. What must go together, such as near and far planes, is
-        checked once all are assigned.
+    values : iterable of (object, dict of str to object)
+        Values by attribute for each Node, Material, Texture, Mesh, light, camera or Scene. What
+        must go together, such as near and far planes, is checked once all are assigned.
     label : str, optional
     """
 
-    def __init__(self, things: Iterable[Any], values: Mapping[str, Any], label: str = "") -> None:
-        self._things = tuple(things)
-        self._values = kept(dict(values))  # the caller may keep modifying its own
-        self.nodes = tuple(thing for thing in self._things if isinstance(thing, Node))
-        self.label = label or f"Set {', '.join(self._values)} of {_named(self._things)}"
+    def __init__(self, values: Iterable[tuple[Any, Mapping[str, Any]]], label: str = "") -> None:
+        # The callers may keep modifying their own.
+        self._values = tuple((thing, kept(dict(held))) for thing, held in values)
+        things = [thing for thing, _ in self._values]
+        self.nodes = tuple(thing for thing in things if isinstance(thing, Node))
+        names = dict.fromkeys(name for _, held in self._values for name in held)
+        self.label = label or f"Set {', '.join(names)} of {_named(things)}"
         self._old: list[tuple[Any, str, Any, bool]] = []
 
     def do(self) -> None:
         self._old = []
         try:
-            for thing in self._things:
-                for name, value in self._values.items():
+            for thing, values in self._values:
+                for name, value in values.items():
                     stated = isinstance(thing, Material) and states_color(thing)
                     self._old.append((thing, name, kept(getattr(thing, name)), stated))
                     setattr(thing, name, value)
@@ -54,12 +55,28 @@ class SetValues(Command):
                 put_states_color(thing, stated)
 
     def absorb(self, later: Command) -> bool:
-        if not isinstance(later, SetValues) or later._values.keys() != self._values.keys():
-            return False
-        if list(map(id, later._things)) != list(map(id, self._things)):
+        if not isinstance(later, SetEach) or later._assigned() != self._assigned():
             return False
         self._values = later._values
         return True
+
+    def _assigned(self) -> list[tuple[int, frozenset[str]]]:
+        return [(id(thing), frozenset(values)) for thing, values in self._values]
+
+
+class SetValues(SetEach):
+    """Assigns the same attributes to several objects.
+
+    Parameters
+    ----------
+    things : iterable of Node, Material, Texture, Mesh, light, camera or Scene
+    values : dict of str to object
+        By attribute, for all of the things.
+    label : str, optional
+    """
+
+    def __init__(self, things: Iterable[Any], values: Mapping[str, Any], label: str = "") -> None:
+        super().__init__(((thing, values) for thing in things), label)
 
 
 def check(thing: Any) -> None:

@@ -57,15 +57,48 @@ def draw_outline(frame: Frame, hit: RayHit, width: int = WIDTH) -> None:
 
 def outline_pixels(frame: Frame, inside: np.ndarray, width: int = WIDTH) -> None:
     """Draw an outline around pixels of a frame, (H, W) of bool."""
+    part = _part_around(inside, width)
+    if part is not None:
+        inside = inside[part]
+        frame.color[part][_grown(inside, width) & ~inside] = OUTLINE
+
+
+def closed(inside: np.ndarray, gaps: np.ndarray, width: int = WIDTH) -> np.ndarray:
+    """Return pixels, (H, W) of bool, with those gaps that have them on opposite sides.
+
+    So lines that are drawn over an object, such as a grid's, do not part its outline.
+    """
+    part = _part_around(inside, width)
+    if part is None:
+        return inside
+    filled = inside.copy()
+    for _ in range(2):  # the second time where lines cross
+        filled[part] |= gaps[part] & _between(filled[part], width)
+    return filled
+
+
+def _part_around(inside: np.ndarray, width: int) -> tuple[slice, slice] | None:
+    """Return the rows and columns that hold all set pixels, and ``width`` more; None if none is."""
     rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))
     if not rows.size:
-        return
-    part = tuple(
-        slice(max(0, int(places[0]) - width), int(places[-1]) + width + 1)
-        for places in (rows, columns)
-    )
-    inside = inside[part]
-    frame.color[part][_grown(inside, width) & ~inside] = OUTLINE
+        return None
+    top, bottom, left, right = (int(places[k]) for places in (rows, columns) for k in (0, -1))
+    down = slice(max(0, top - width), bottom + width + 1)
+    return down, slice(max(0, left - width), right + width + 1)
+
+
+def _between(inside: np.ndarray, width: int) -> np.ndarray:
+    """Return the pixels that have set ones within ``width`` rows or columns on both sides."""
+    between = np.zeros_like(inside)
+    for axis in (0, 1):
+        before, after = np.zeros_like(inside), np.zeros_like(inside)
+        for step in range(1, width + 1):
+            near, far = [slice(None)] * 2, [slice(None)] * 2
+            near[axis], far[axis] = slice(step, None), slice(None, -step)
+            before[tuple(near)] |= inside[tuple(far)]
+            after[tuple(far)] |= inside[tuple(near)]
+        between |= before & after
+    return between
 
 
 def _grown(inside: np.ndarray, width: int) -> np.ndarray:

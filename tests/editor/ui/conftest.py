@@ -19,7 +19,9 @@ def editor(monkeypatch, tmp_path):
     path = files(data) / "models" / "train.asc"
     with EditorWindow(str(path), size=SIZE) as editor:
         editor.window.present = lambda pixels: None  # nobody looks, and nobody waits for a screen
-        editor._scene._overlays.shown["marks"] = False
+        editor._scene._overlays.shown |= dict.fromkeys(
+            ("icons", "names", "outlines", "grid", "preview", "ball"), False
+        )
         editor._scene._draw_times = lambda corner: None
         settle(editor)
         yield editor

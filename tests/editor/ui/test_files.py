@@ -45,7 +45,7 @@ def test_a_scene_is_saved_and_opened_again(editor, tmp_path):
     assert path.exists() and not editor.workspace.document.is_modified
     assert editor.window.title == "train.e3d.json - engine3d"
     press(editor, "N", control=True)
-    assert editor.workspace.scene.nodes == ()
+    assert [node.name for node in editor.workspace.scene.nodes] == ["key light", "camera"]
     press(editor, "O", control=True)
     settle(editor)
     assert asked._dialog._recent.paths() == (str(path), str(files(data) / "models" / "train.asc"))
@@ -100,10 +100,10 @@ def test_a_scene_that_was_left_behind_is_offered(editor, monkeypatch):
 
 def test_a_texture_is_loaded_into_a_slot(editor, tmp_path):
     workspace, material = editor.workspace, find(editor, "Cab").object.materials[0]
-    assert not workspace.load_texture(str(tmp_path / "none.png"), material, "texture")
+    assert not workspace.load_texture(str(tmp_path / "none.png"), [material], "texture")
     assert "none.png" in workspace.console.entries[-1].text
     image = str(files(data) / "models" / "teapot.tga")
-    assert workspace.load_texture(image, material, "texture")
+    assert workspace.load_texture(image, [material], "texture")
     assert material.texture.pixels.shape[2] == 4
     workspace.undo()
     assert material.texture is None

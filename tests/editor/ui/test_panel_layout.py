@@ -16,7 +16,7 @@ def test_panels_can_be_closed_and_come_back(editor):
 
 def test_closed_panels_and_steps_are_kept(editor):
     editor.workspace.panels.closed.add("Resources")
-    editor.workspace.tools.steps["turn"] = 22.5
+    editor.workspace.tools.steps["rotate"] = 22.5
     save_layout(editor.workspace)
     again = Workspace()
     assert load_layout(again, (1000, 640))

@@ -3,6 +3,8 @@
 A hand takes the place of the mouse: it touches one field after the other, whichever there are.
 """
 
+import re
+
 import numpy as np
 import pytest
 
@@ -18,9 +20,10 @@ pytest.importorskip(
 
 from imgui_bundle import imgui
 
-from engine3d.apps.editor.ui import fog_fields, properties_panel
+from engine3d.apps.editor.ui import properties_panel
 from engine3d.apps.editor.ui.editor_window import EditorWindow
-from engine3d.apps.editor.ui.properties_panel import _COLLIDERS
+from engine3d.apps.editor.ui.properties import fields
+from engine3d.apps.editor.ui.properties.collider_fields import COLLIDERS
 
 HELD = {
     "light probe": lambda: e3d.LightProbe(np.ones((9, 3))),
@@ -47,7 +50,7 @@ OTHERS = {
 EVERYTHING = {
     **{kind: HELD.get(kind, cls) for kind, cls in KINDS.items()},
     **OTHERS,
-    **{f"{kind} collider": e3d.box for kind in _COLLIDERS},
+    **{f"{kind} collider": e3d.box for kind in COLLIDERS},
 }
 ENVIRONMENTS = {"plain": {}, "foggy": {"fog": e3d.Fog((9, 8, 7), 1.0, 2.0)}}
 
@@ -82,24 +85,21 @@ class Hand:
         return getattr(imgui, name)
 
     def _touches(self, label):
-        self.fields.append(label)
+        self.fields.append(re.sub(r"^##|( \d+)?(##.*)?$", "", label))
         return len(self.fields) - 1 == self.at
 
     def _moved(self, value, low=-1e9, high=1e9):
         return min(max(value + (self.far * 1e6 or 0.01), low), high)
 
-    def drag_float(self, label, value, speed, low=-1e9, high=1e9, *how):
-        shown = imgui.drag_float(label, value, speed, low, high, *how)
-        return (True, self._moved(value, low, high)) if self._touches(label) else shown
-
-    def slider_float(self, label, value, low, high):
-        shown = imgui.slider_float(label, value, low, high)
-        return (True, self._moved(value - 0.02, low, high)) if self._touches(label) else shown
-
-    def drag_float3(self, label, values, speed):
-        shown = imgui.drag_float3(label, values, speed)
-        moved = [self._moved(value) for value in values]
+    def drag_float(self, label, value, speed, low, high, form):
+        shown = imgui.drag_float(label, value, speed, low, high, form)
+        whole = form == "%.0f"
+        moved = self._moved(value + 0.99 * whole, low, high)
         return (True, moved) if self._touches(label) else shown
+
+    def slider_float(self, label, value, low, high, form):
+        shown = imgui.slider_float(label, value, low, high, form)
+        return (True, self._moved(value - 0.02, low, high)) if self._touches(label) else shown
 
     def color_edit3(self, label, values):
         shown = imgui.color_edit3(label, values)
@@ -119,6 +119,10 @@ class Hand:
     def collapsing_header(self, label, *flags):
         imgui.collapsing_header(label, *flags)
         return True
+
+    def tree_node(self, label):
+        imgui.set_next_item_open(True)
+        return imgui.tree_node(label)
 
     def begin_combo(self, label, value):
         imgui.label_text(label, value)
@@ -149,7 +153,7 @@ def editor(tmp_path_factory):
 def hand(editor, monkeypatch):
     editor._told.clear()  # of other tests
     hand = Hand()
-    for module in (properties_panel, fog_fields):
+    for module in (properties_panel, fields):
         monkeypatch.setattr(module, "imgui", hand)
     return hand
 
@@ -193,7 +197,7 @@ def test_all_that_a_node_holds_is_shown_and_changed(editor, hand, kind):
     node = scene.add(EVERYTHING[kind](), name=kind, translation=(1, 2, 3), scale=2.0)
     scene.add(e3d.icosphere(), name="other")
     if kind.endswith("collider"):
-        node.collider = _COLLIDERS[kind.partition(" ")[0]](node.object)
+        node.collider = COLLIDERS[kind.partition(" ")[0]](node.object)
     editor.workspace.document.selection.set([node])
     fields = edit_all(editor, hand)
     assert {"Position", "Rotation", "Scale", "Visible"} <= set(fields)
@@ -215,7 +219,7 @@ def test_what_all_kinds_of_lights_have_in_common_is_shown(editor, hand):
     scene = editor.workspace.scene
     light = scene.add(e3d.SpotLight(range=2.0))
     editor.workspace.document.selection.set([light])
-    assert {"Colour", "Intensity", "Inner cone", "Outer cone", "Range"} <= set(
+    assert {"Colour", "Intensity", "Inner cone, °", "Outer cone, °", "Range"} <= set(
         lay_out(editor, hand)
     )
 

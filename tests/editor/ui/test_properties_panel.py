@@ -2,8 +2,8 @@
 
 from editor.ui.editor_hands import find, middle_of, settle
 
-from engine3d.apps.editor.ui import fog_fields
-from engine3d.apps.editor.ui.properties_panel import _COLLIDERS, _KINDS
+from engine3d.apps.editor.ui.properties import fog_fields
+from engine3d.apps.editor.ui.properties.collider_fields import COLLIDERS, KINDS
 from engine3d.apps.editor.value_commands import SetValues
 from engine3d.model.scene.fog import ExponentialFog, Fog
 
@@ -18,9 +18,9 @@ def test_every_panel_of_a_selected_light_camera_and_mesh_is_laid_out(editor):
 
 def test_every_kind_of_collider_fits_a_mesh(editor):
     cab = find(editor, "Cab")
-    for name, make in _COLLIDERS.items():
+    for name, make in COLLIDERS.items():
         cab.collider = make(cab.object)
-        assert _KINDS.get(type(cab.collider), "none") == name
+        assert KINDS.get(type(cab.collider), "none") == name
     workspace = editor.workspace
     workspace.document.selection.set([cab])
     settle(editor)

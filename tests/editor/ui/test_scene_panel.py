@@ -170,6 +170,7 @@ def scene_corner_of_gizmo(editor):
 def test_what_can_be_shown_over_the_scene_is_drawn_and_stays_within_it(editor):
     overlays, workspace = editor._scene._overlays, editor.workspace
     workspace.document.selection.set([find(editor, "Cab"), find(editor, "Camera01")])
+    find(editor, "Cab").collider = e3d.colliders.BoxCollider()
     workspace.orbit.dolly(-12)
     overlays.shown = dict.fromkeys(overlays.shown, False)
     plain = settle(editor)

@@ -40,7 +40,7 @@ class ConsolePanel:
 
     def draw(self) -> None:
         """Lay the panel out."""
-        shown = begin_panel(self._workspace, "Console")
+        shown = begin_panel("Console")
         if shown:
             self._draw_head()
             height = -imgui.get_frame_height_with_spacing()

@@ -23,11 +23,13 @@ from .files import Files
 from .hierarchy_panel import HierarchyPanel
 from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
+from .keys_window import KeysWindow
 from .menus import draw_menus, entries, press_keys
 from .panel_layout import load_layout, place_panels, save_layout
 from .properties_panel import PropertiesPanel
 from .resources_panel import ResourcesPanel
 from .scene_panel import ScenePanel
+from .start_chooser import StartChooser
 from .style import choose_style, scaled, set_scale
 from .workspace import Workspace
 
@@ -101,6 +103,9 @@ class EditorWindow:
         }
         self._files.offer_recovery()
         self._entries = entries(self.workspace, self._files, hierarchy)
+        self._starts = StartChooser(self.workspace, self._files)
+        self._keys = KeysWindow(self.workspace, self._entries)
+        self.workspace.panels.offers_start = not path
         self._pixels = np.zeros((1, 1, 4), np.uint8)
         self._told: set[str] = set()
         self._late: list = []  # events that wait for the next picture, or came while Python ran
@@ -245,6 +250,8 @@ class EditorWindow:
         for name, panel in self._panels.items():
             if name not in workspace.panels.closed:
                 self._guarded(panel.draw)
+        self._guarded(self._starts.draw)
+        self._guarded(self._keys.draw)
         self._guarded(self._files.draw)
         self._guarded(lambda: press_keys(self._entries))
 

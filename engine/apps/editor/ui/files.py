@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from imgui_bundle import imgui
 
@@ -67,11 +67,11 @@ class Files:
         """Ask for a file, and add its content to the scene."""
         self._dialog.ask("Add a file", _kinds(), self._workspace.add_file)
 
-    def load_texture(self, material: Material, slot: str) -> None:
-        """Ask for an image, and use it as a texture of a material."""
+    def load_texture(self, materials: Sequence[Material], slot: str) -> None:
+        """Ask for an image, and use it as a texture of materials."""
         kinds = {"Images": tuple(end for item in formats("image") for end in item.extensions)}
         self._dialog.ask(
-            "Load an image", kinds, lambda path: self._workspace.load_texture(path, material, slot)
+            "Load an image", kinds, lambda path: self._workspace.load_texture(path, materials, slot)
         )
 
     def load_mesh(self, node: Node) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from imgui_bundle import imgui, imguizmo
 
 from ....base import linalg
+from ....model.scene.cameras import Camera
 from ..drags import dragged_pose
 from ..node_commands import MoveNodes, counted, in_world
 from .workspace import Workspace
@@ -35,7 +36,7 @@ class GizmoHandles:
         """Draw the gizmo; return whether the mouse is on it."""
         workspace = self._workspace
         nodes = workspace.document.selection.topmost()
-        if workspace.tools.chosen == "select" or not nodes:
+        if workspace.tools.chosen == "select" or not nodes or workspace.through.node in nodes:
             self._drag = None
             return False
         gizmo = imguizmo.im_guizmo
@@ -65,23 +66,30 @@ class GizmoHandles:
         label = counted(tool.capitalize(), nodes)
         workspace.do(MoveNodes(workspace.scene, nodes, in_world(change), label), drag=self._drag)
 
+    def _camera(self) -> tuple[Camera, np.ndarray]:
+        """Return the camera of the view, and its pose."""
+        workspace = self._workspace
+        if workspace.through.node is not None:
+            return workspace.camera()
+        view, bounds = workspace.view, workspace.bounds
+        # Lights and cameras may be in front of the near plane, which depends on meshes.
+        reach = float(linalg.length(view.position() - bounds.center)) + bounds.radius
+        return view.camera(bounds._replace(radius=reach)), view.pose()
+
     def _snaps(self) -> bool:
         return self._workspace.tools.snaps != imgui.get_io().key_ctrl
 
     def _manipulated(self, gizmo, pose: np.ndarray, size: tuple[int, int]) -> np.ndarray | None:
         """Return the gizmo's new pose, in single precision; None if unchanged."""
         workspace = self._workspace
-        view, bounds = workspace.view, workspace.bounds
-        # Lights and cameras may be in front of the near plane, which depends on meshes.
-        reach = float(linalg.length(view.position() - bounds.center)) + bounds.radius
-        camera = view.camera(bounds._replace(radius=reach))
+        camera, seen_from = self._camera()
         matrices = [
             gizmo.Matrix16(matrix.T.ravel().tolist())
-            for matrix in (linalg.inverse(view.pose()), camera.projection(size), pose)
+            for matrix in (linalg.inverse(seen_from), camera.projection(size), pose)
         ]
         operation = {
             "move": gizmo.OPERATION.translate,
-            "turn": gizmo.OPERATION.rotate,
+            "rotate": gizmo.OPERATION.rotate,
             "scale": gizmo.OPERATION.scale,
         }[workspace.tools.chosen]
         is_local = workspace.tools.is_local or workspace.tools.chosen == "scale"

@@ -9,10 +9,11 @@ from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node
 from ..hierarchy import Row
+from ..new_things.adding import GROUPS
 from ..node_commands import Reparent
 from ..value_commands import SetValues
 from .panel_layout import begin_panel
-from .selection_actions import ADDED, add, delete, duplicate, group
+from .selection_actions import add, delete, duplicate, group
 from .workspace import Workspace
 
 _PAYLOAD = "node"
@@ -43,7 +44,7 @@ class HierarchyPanel:
 
     def draw(self) -> None:
         """Lay the panel out."""
-        shown = begin_panel(self._workspace, "Hierarchy")
+        shown = begin_panel("Hierarchy")
         if shown:
             self._draw_head()
             if imgui.begin_child("rows"):
@@ -223,6 +224,9 @@ class HierarchyPanel:
 
 def draw_add_menu(workspace: Workspace, parent: Node | None = None) -> None:
     """Lay out the menu of things to add, below a node or at the top."""
-    for name in ADDED:
-        if imgui.menu_item_simple(name):
-            add(workspace, name, parent)
+    for number, titles in enumerate(GROUPS):
+        if number:
+            imgui.separator()
+        for name in titles:
+            if imgui.menu_item_simple(name):
+                add(workspace, name, parent)

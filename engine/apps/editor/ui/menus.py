@@ -6,6 +6,7 @@ In: the workspace. Out: the changed workspace. Shortcuts are those on which Blen
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 from imgui_bundle import imgui
@@ -13,6 +14,7 @@ from imgui_bundle import imgui
 from . import selection_actions as actions
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
+from .view.standard_views import STANDARD_VIEWS
 from .workspace import PANELS, Workspace
 
 
@@ -42,6 +44,9 @@ def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> li
     def frame_selected():
         workspace.frame(workspace.document.selection.nodes)
 
+    def show_keys():
+        workspace.panels.shows_keys = not workspace.panels.shows_keys
+
     def choose(tool):
         return lambda: setattr(workspace.tools, "chosen", tool)
 
@@ -63,11 +68,18 @@ def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> li
         Entry("Edit", "Select all", "Ctrl+A", lambda: actions.select_all(workspace)),
         Entry("View", "Frame the selection", "F", frame_selected),
         Entry("View", "Frame all", "Home", lambda: workspace.frame(())),
+        *(
+            Entry("View", name, key, partial(workspace.look_from, name))
+            for name, (_, _, key) in STANDARD_VIEWS.items()
+        ),
+        Entry("View", "Orthographic or perspective", "5", workspace.toggle_orthographic),
+        Entry("View", "Look through a camera", "0", workspace.look_through),
         Entry("View", "Play or pause", "Space", workspace.play_or_pause),
         Entry("Tools", "Select", "Q", choose("select")),
         Entry("Tools", "Move", "W", choose("move")),
-        Entry("Tools", "Turn", "E", choose("turn")),
+        Entry("Tools", "Rotate", "E", choose("rotate")),
         Entry("Tools", "Scale", "R", choose("scale")),
+        Entry("Help", "Keys and mouse", "F1", show_keys),
     ]
 
 
@@ -75,19 +87,25 @@ def draw_menus(workspace: Workspace, listed: list[Entry]) -> None:
     """Lay the menu bar out."""
     if not imgui.begin_main_menu_bar():
         return
-    for menu in dict.fromkeys(entry.menu for entry in listed):
-        if imgui.begin_menu(menu):
-            for entry in listed:
-                if entry.menu == menu and imgui.menu_item_simple(entry.label, entry.keys):
-                    entry.act()
-            imgui.end_menu()
+    menus = list(dict.fromkeys(entry.menu for entry in listed))
+    for menu in menus[:-1]:
+        _draw_menu(menu, listed)
     if imgui.begin_menu("Add"):
         draw_add_menu(workspace)
         imgui.end_menu()
     if imgui.begin_menu("Window"):
         _draw_window_menu(workspace)
         imgui.end_menu()
+    _draw_menu(menus[-1], listed)  # Help stands last
     imgui.end_main_menu_bar()
+
+
+def _draw_menu(menu: str, listed: list[Entry]) -> None:
+    if imgui.begin_menu(menu):
+        for entry in listed:
+            if entry.menu == menu and imgui.menu_item_simple(entry.label, entry.keys):
+                entry.act()
+        imgui.end_menu()
 
 
 def _draw_window_menu(workspace: Workspace) -> None:
@@ -97,7 +115,7 @@ def _draw_window_menu(workspace: Workspace) -> None:
         if changed:
             (workspace.panels.closed.discard if is_open else workspace.panels.closed.add)(name)
     imgui.separator()
-    if imgui.menu_item_simple("Usual places"):
+    if imgui.menu_item_simple("Reset the layout"):
         workspace.panels.wants_usual_places = True
 
 
@@ -113,5 +131,11 @@ def press_keys(listed: list[Entry]) -> None:
             continue
         *modifiers, key = entry.keys.split("+")
         held = io.key_ctrl == ("Ctrl" in modifiers) and io.key_shift == ("Shift" in modifiers)
-        if held and not io.key_alt and imgui.is_key_pressed(getattr(imgui.Key, key.lower()), False):
+        if held and not io.key_alt and _is_pressed(key):
             entry.act()
+
+
+def _is_pressed(key: str) -> bool:
+    """Return whether a key was pressed; a digit also counts on the keypad."""
+    names = (f"_{key}", f"keypad{key}") if key.isdigit() else (key.lower(),)
+    return any(imgui.is_key_pressed(getattr(imgui.Key, name), False) for name in names)

@@ -1,33 +1,55 @@
-"""Optional overlays over the scene: lights and cameras, boxes, frusta, normals.
+"""Optional overlays over the scene: icons of lights, cameras, empties; boxes, colliders, normals.
 
-In: the shown frame, and the scene. Out: ImGui lines, drawn without depth test.
+In: the shown frame, and the scene. Out: ImGui lines, drawn without depth test. Selected lights show
+what they light, selected cameras what they see.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from imgui_bundle import imgui
 
 from ....base import linalg
 from ....model.geometry.mesh import Mesh
-from ....model.scene.cameras import Camera, far_depth
+from ....model.scene.cameras import Camera
 from ....model.scene.instances import InstancedMesh
 from ....model.scene.nodes import Node
 from ....rendering.frame import Frame
+from ..node_shapes import MOST_EDGES, box_lines, camera_frustum, collider_lines, icon, outline
+from ..picking import without_surface
 from .style import scaled
 from .workspace import Workspace
 
-_EDGES = [(a, b) for a in range(8) for b in (a | 1, a | 2, a | 4) if a < b]
-_CORNERS = np.indices((2, 2, 2)).reshape(3, -1).T
+Color: TypeAlias = tuple[float, float, float, float]
 _BOX = (0.35, 0.8, 1.0, 0.8)
 _FRUSTUM = (1.0, 0.9, 0.4, 0.8)
+_COLLIDER = (0.45, 1.0, 0.55, 0.9)
 _NORMAL = (0.5, 1.0, 0.5, 0.7)
-_MARK = (1.0, 0.9, 0.5, 0.9)
-#: More normals would hide the mesh.
-MOST_NORMALS = 4000
-MARK_PIXELS = 5.0
-#: An infinite frustum is drawn up to this many scene radii.
-LONGEST = 4.0
+_ICON, _SELECTED = (1.0, 0.92, 0.6, 1.0), (1.0, 0.63, 0.16, 1.0)
+_SHADOW = (0.0, 0.0, 0.0, 0.55)
+#: How large an icon is, in heights of the font.
+ICON_SIZE = 1.6
+#: More names would cover the scene; those of selected nodes come first.
+MOST_NAMES = 60
+#: Of more selected nodes, the last ones have their outlines.
+MOST_OUTLINES = 64
+#: An infinite frustum or cone is drawn up to this many scene radii.
+LONGEST = 1.5
+#: What can be shown: its name in the menu, and whether it shows at first.
+SHOWN = {
+    "grid": ("Grid and axes", True),
+    "ball": ("Ball of axes", True),
+    "icons": ("Lights, cameras, empties", True),
+    "names": ("Their names", True),
+    "outlines": ("Cones, surfaces and frustums of the selection", True),
+    "preview": ("What the selected camera sees", True),
+    "colliders": ("Colliders of the selection", True),
+    "boxes": ("Boxes of the selection", False),
+    "normals": ("Normals of the selection", False),
+}
 
 
 class Overlays:
@@ -45,93 +67,137 @@ class Overlays:
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
-        self.shown = {"marks": True, "boxes": False, "frusta": True, "normals": False}
+        self.shown = {name: at_first for name, (_, at_first) in SHOWN.items()}
+        self._made_of: tuple = ()
+        self._lines: list[tuple[np.ndarray, Color]] = []
+        self._names: list[tuple[str, list[float]]] = []
 
     def draw_menu(self) -> None:
         """Lay out the menu of overlays."""
         if imgui.button("Show"):
             imgui.open_popup("show")
         if imgui.begin_popup("show"):
-            for name in self.shown:
-                _, self.shown[name] = imgui.checkbox(name.capitalize(), self.shown[name])
+            for name, (title, _) in SHOWN.items():
+                _, self.shown[name] = imgui.checkbox(title, self.shown[name])
             imgui.end_popup()
 
     def draw(self, frame: Frame, corner) -> None:
         """Draw the chosen overlays over a frame with its top left corner at a window position."""
+        selection = self._workspace.document.selection
+        key = frame, selection.version, tuple(self.shown.values())
+        if key != self._made_of:
+            self._lines, self._names, self._made_of = [], [], key
+            self._collect_icons(frame)
+            for node in selection.nodes[-MOST_OUTLINES:]:
+                for segments, color in self._outlines(node, frame):
+                    self._collect(frame, segments, color)
         lines = imgui.get_window_draw_list()
         lines.push_clip_rect(corner, (corner.x + frame.width, corner.y + frame.height), True)
-        if self.shown["marks"]:
-            self._draw_marks(lines, frame, corner)
-        for node in self._workspace.document.selection.nodes[-64:]:
-            if self.shown["boxes"] and node.bounds is not None:
-                points = node.bounds[_CORNERS, np.arange(3)]
-                _draw_edges(lines, frame, corner, points, _BOX)
-            if self.shown["frusta"] and isinstance(node.object, Camera):
-                points = self._frustum(node, frame)
-                _draw_edges(lines, frame, corner, points, _FRUSTUM)
-            if self.shown["normals"] and isinstance(node.object, Mesh | InstancedMesh):
-                self._draw_normals(lines, frame, corner, node)
+        for ends, color in self._lines:
+            _draw_lines(lines, ends + np.array([corner.x, corner.y]), color)
+        _draw_names(lines, corner, self._names)
         lines.pop_clip_rect()
 
-    def _draw_marks(self, lines, frame: Frame, corner) -> None:
-        data = self._workspace.scene.data
-        held = [*data.lights.values(), *data.cameras.values()]
-        nodes = [node for node in held if node.shown]
+    def _collect(self, frame: Frame, segments: np.ndarray, color: Color) -> None:
+        """Note world lines for drawing; those with an end behind the camera are left out."""
+        pixels, depths = frame.project(segments.reshape(-1, 3))
+        shown = (depths.reshape(-1, 2) > 0).all(axis=1)
+        shown &= np.isfinite(pixels).reshape(-1, 4).all(axis=1)
+        self._lines.append((pixels.reshape(-1, 2, 2)[shown], color))
+
+    def _collect_icons(self, frame: Frame) -> None:
+        """Note the icons and names of nodes without surface."""
+        selection = self._workspace.document.selection
+        chosen = [node for node in selection.nodes[-MOST_OUTLINES:] if _is_empty(node)]
+        nodes = list(dict.fromkeys([*chosen, *without_surface(self._workspace.scene)]))
+        through = self._workspace.through.node
+        nodes = [node for node in nodes if node is not through]
         if not nodes:
             return
-        places, depths = frame.project(np.array([node.world_pose[:3, 3] for node in nodes]))
-        color = imgui.get_color_u32(_MARK)
-        for node, place, depth in zip(nodes, places.tolist(), depths.tolist(), strict=True):
-            if depth > 0:
-                at, side = (corner.x + place[0], corner.y + place[1]), scaled(MARK_PIXELS)
-                lines.add_circle(at, side, color, thickness=scaled(1.0))
-                lines.add_text((at[0] + 2 * side, at[1] - side), color, node.name)
+        nodes.sort(key=lambda node: node not in selection)  # their names come first
+        places = np.array([node.world_pose[:3, 3] for node in nodes])
+        reaches = self._reaches(frame, places).tolist()
+        if self.shown["icons"]:
+            for color, is_selected in ((_ICON, False), (_SELECTED, True)):
+                drawn = [
+                    icon(node, reach)
+                    for node, reach in zip(nodes, reaches, strict=True)
+                    if (node in selection) == is_selected and reach > 0.0
+                ]
+                if drawn:
+                    self._collect(frame, np.concatenate(drawn), color)
+        if self.shown["names"]:
+            pixels = frame.project(places)[0].tolist()
+            named = zip(nodes, pixels, reaches, strict=True)
+            texts = [(node.name, pixel) for node, pixel, reach in named if reach > 0.0]
+            self._names = [text for text in texts if text[0]][:MOST_NAMES]
 
-    def _frustum(self, node: Node, frame: Frame) -> np.ndarray:
-        """Return the eight corners of a camera's frustum, in world space."""
-        projection = node.object.projection(frame.size)
-        unprojected = linalg.inverse(projection)
-        corners = 2.0 * _CORNERS - 1.0
-        corners[1::2, 2] = far_depth(node.object)
-        points = linalg.transform_points(unprojected, corners)
+    def _reaches(self, frame: Frame, places: np.ndarray) -> np.ndarray:
+        """Return how many world units at each place are as long as an icon; 0 if it is unseen."""
+        right = self._workspace.camera()[1][:3, 0]
+        (here, near), (there, _) = frame.project(places), frame.project(places + right)
+        pixels = np.hypot(*(there - here).T)
+        seen = (near > 0.0) & np.isfinite(pixels) & (pixels > 0.0)
+        size = ICON_SIZE * imgui.get_font_size()
+        return np.where(seen, size / np.where(seen, pixels, 1.0), 0.0)
+
+    def _outlines(self, node: Node, frame: Frame):
+        """Yield the outlines of a selected node, with their colours."""
         reach = LONGEST * self._workspace.bounds.radius
-        near, far = points[::2], points[1::2]  # the last index is that of depth
-        length = float(np.abs(far).max())
-        if not length <= reach:  # infinite, or too far away for meaningful lines
-            points[1::2] = near * (reach / max(float(np.abs(near).max()), 1e-12))
-        return linalg.transform_points(node.world_pose, points)
-
-    def _draw_normals(self, lines, frame: Frame, corner, node: Node) -> None:
-        held = node.object
-        mesh = held.mesh if isinstance(held, InstancedMesh) else held
-        if mesh.normals is None or not len(mesh.positions):
-            return
-        step = -(-len(mesh.positions) // MOST_NORMALS)
-        low, high = mesh.bounds
-        length = 0.04 * float(np.max(high - low))
-        starts = mesh.positions[::step, :3].astype(np.float64)
-        ends = starts + length * mesh.normals[::step]
-        pose = node.world_pose
-        _draw_lines(
-            lines,
-            frame,
-            corner,
-            linalg.transform_points(pose, starts),
-            linalg.transform_points(pose, ends),
-            _NORMAL,
-        )
+        if self.shown["boxes"] and node.bounds is not None:
+            yield box_lines(*node.bounds), _BOX
+        if self.shown["outlines"]:
+            if isinstance(node.object, Camera) and node is not self._workspace.through.node:
+                yield camera_frustum(node, frame.size, reach), _FRUSTUM
+            yield outline(node, reach / LONGEST), _FRUSTUM
+        if self.shown["colliders"]:
+            yield collider_lines(node), _COLLIDER
+        if self.shown["normals"] and isinstance(node.object, Mesh | InstancedMesh):
+            yield _normals(node), _NORMAL
 
 
-def _draw_edges(lines, frame: Frame, corner, points: np.ndarray, color) -> None:
-    first, last = np.array(_EDGES).T
-    _draw_lines(lines, frame, corner, points[first], points[last], color)
+def _is_empty(node: Node) -> bool:
+    return node.object is None and node.shown
 
 
-def _draw_lines(lines, frame: Frame, corner, starts, ends, color) -> None:
-    """Draw world lines; lines with an end behind the camera are left out."""
-    (a, near), (b, far) = frame.project(starts), frame.project(ends)
-    shown = (near > 0) & (far > 0) & np.isfinite(a).all(1) & np.isfinite(b).all(1)
-    shift = np.array([corner.x, corner.y])
-    packed = imgui.get_color_u32(color)
-    for start, end in zip((a[shown] + shift).tolist(), (b[shown] + shift).tolist(), strict=True):
-        lines.add_line(start, end, packed, scaled(1.0))
+def _normals(node: Node) -> np.ndarray:
+    """Return the normals of a node's mesh as segments in world space, (N, 2, 3)."""
+    held = node.object
+    mesh = held.mesh if isinstance(held, InstancedMesh) else held
+    if mesh.normals is None or not len(mesh.positions):
+        return np.zeros((0, 2, 3))
+    step = -(-len(mesh.positions) // MOST_EDGES)
+    low, high = mesh.bounds
+    length = 0.04 * float(np.max(high - low))
+    starts = mesh.positions[::step, :3].astype(np.float64)
+    ends = starts + length * mesh.normals[::step]
+    points = np.concatenate([starts, ends])
+    return linalg.transform_points(node.world_pose, points).reshape(2, -1, 3).swapaxes(0, 1)
+
+
+def _draw_names(lines, corner, texts: Sequence[tuple[str, list[float]]]) -> None:
+    """Draw names beside their places, on a dark ground; those that would overlap are left out."""
+    color, ground = imgui.get_color_u32(_ICON), imgui.get_color_u32(_SHADOW)
+    taken: list[tuple[float, float, float, float]] = []
+    for text, (x, y) in texts:
+        size = imgui.calc_text_size(text)
+        aside = ICON_SIZE / 2 * imgui.get_font_size()
+        left, top = corner.x + x + aside, corner.y + y - size.y / 2
+        box = (left - 2.0, top, left + size.x + 2.0, top + size.y)
+        if any(_overlap(box, other) for other in taken):
+            continue
+        taken.append(box)
+        lines.add_rect_filled(box[:2], box[2:], ground, 3.0)
+        lines.add_text((left, top), color, text)
+
+
+def _overlap(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def _draw_lines(lines, ends: np.ndarray, color: Color) -> None:
+    """Draw lines between pixels, (N, 2, 2), on dark ones."""
+    for name, wide in ((_SHADOW, scaled(3.0)), (color, scaled(1.0))):
+        packed = imgui.get_color_u32(name)
+        for start, end in ends.tolist():
+            lines.add_line(start, end, packed, wide)

@@ -150,9 +150,9 @@ def _share(width: int, usual: float, least: float, most: float) -> float:
     return min(max(usual, least * imgui.get_font_size() / width), most)
 
 
-def begin_panel(workspace: Workspace, name: str) -> bool:
-    """Begin a closable panel; return whether to lay out its content."""
-    shown, is_open = imgui.begin(name, True)
-    if not is_open:
-        workspace.panels.closed.add(name)
-    return shown
+def begin_panel(name: str) -> bool:
+    """Begin a panel; return whether to lay out its content.
+
+    It has no cross, which one would hit beside its name: the menu "Window" closes it.
+    """
+    return imgui.begin(name)[0]

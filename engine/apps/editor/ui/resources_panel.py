@@ -44,7 +44,7 @@ class ResourcesPanel:
         """Lay the panel out."""
         self.is_waiting = False
         self._deadline = time.perf_counter() + PATIENCE
-        shown = begin_panel(self._workspace, "Resources")
+        shown = begin_panel("Resources")
         if shown:
             entries = self._workspace.resources.entries()
             self._forget_unused(entries)

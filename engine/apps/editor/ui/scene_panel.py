@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
-from ....stage.overlays.selection_outline import WIDTH, outline_pixels
+from ....stage.overlays.selection_outline import WIDTH, closed, outline_pixels
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
@@ -22,6 +22,8 @@ from .panel_layout import begin_panel
 from .scene_pictures import ScenePictures
 from .scene_tools import draw_tools
 from .style import scaled
+from .view.camera_preview import CameraPreview
+from .view.clickable_axes import ClickableAxes
 from .workspace import Workspace
 
 #: A press and release within this many pixels are a click.
@@ -57,6 +59,8 @@ class ScenePanel:
         self._drawn: tuple = ()
         self._overlays = Overlays(workspace)
         self._gizmo = GizmoHandles(workspace)
+        self._preview = CameraPreview(workspace, painter)
+        self._axes = ClickableAxes(workspace, painter)
         self._seconds = 0.0
         self._corner = imgui.ImVec2(0.0, 0.0)
         self._is_hovered = False
@@ -64,8 +68,9 @@ class ScenePanel:
         self.is_flying = False
 
     def close(self) -> None:
-        """Free the renderer."""
+        """Free the renderers."""
         self._pictures.close()
+        self._preview.close()
 
     def node_under_mouse(self) -> Node | None:
         """Return the node under the mouse, if the mouse is over the scene."""
@@ -81,7 +86,7 @@ class ScenePanel:
     def draw(self) -> None:
         """Lay the panel out."""
         imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
-        shown = begin_panel(self._workspace, "Scene")
+        shown = begin_panel("Scene")
         imgui.pop_style_var()
         if shown:
             draw_tools(self._workspace, self._overlays)
@@ -105,7 +110,12 @@ class ScenePanel:
         if not self._workspace.display.as_rendered:
             self._overlays.draw(self._frame, corner)
             self._draw_times(corner)
-            captured = self._gizmo.draw(corner, size)
+            if self._overlays.shown["ball"]:
+                captured = self._axes.draw(self._frame, corner, hovered)
+            captured = self._gizmo.draw(corner, size) or captured
+            if self._overlays.shown["preview"]:
+                self._preview.draw(corner, size)
+            self._draw_camera_name(corner)
         self._turn_camera(hovered and not captured, corner, size)
         self._select(corner)
 
@@ -117,15 +127,17 @@ class ScenePanel:
             *(workspace.view.pose().tobytes(), workspace.view.orthographic),
             *(workspace.view.distance, workspace.document.selection.version),
             *(workspace.scene, workspace.scene.data.arrays.changes),
+            *(workspace.through.node, self._overlays.shown["grid"]),
         )
         if key == self._drawn:
             return
         start = time.perf_counter()
-        self._frame = frame = self._pictures.draw(size)
+        self._frame = frame = self._pictures.draw(size, self._overlays.shown["grid"])
         self._seconds = time.perf_counter() - start
         ids = [] if workspace.display.as_rendered else self._selected_ids()
         if ids:
-            outline_pixels(frame, np.isin(frame.object_id, ids), round(scaled(WIDTH)))
+            inside = closed(np.isin(frame.object_id, ids), self._pictures.grid_pixels(frame))
+            outline_pixels(frame, inside, round(scaled(WIDTH)))
         if not self._number:
             self._number = self._painter.add(frame.color, opaque=True)
         self._painter.replace(self._number, frame.color, opaque=True)
@@ -142,6 +154,18 @@ class ScenePanel:
         color = imgui.get_color_u32(imgui.Col_.text_disabled)
         imgui.get_window_draw_list().add_text(place, color, text)
 
+    def _draw_camera_name(self, corner) -> None:
+        """Tell which camera the view looks through."""
+        node = self._workspace.through.node
+        if node is None:
+            return
+        text = f"Through {node.name or 'a camera'}: turn the view to leave it"
+        middle = corner.x + (self._frame.width - imgui.calc_text_size(text).x) / 2
+        color = imgui.get_color_u32(RECTANGLE)
+        imgui.get_window_draw_list().add_text(
+            (middle, corner.y + imgui.get_font_size() / 2), color, text
+        )
+
     def _selected_ids(self) -> list[int]:
         """Return the IDs of the selected nodes and their subtrees."""
         ids = []
@@ -155,6 +179,7 @@ class ScenePanel:
         """Handle the wheel and mouse buttons on the picture."""
         io, orbit = imgui.get_io(), self._workspace.orbit
         if hovered and io.mouse_wheel:
+            self._workspace.through.leave()
             at = io.mouse_pos.x - corner.x, io.mouse_pos.y - corner.y
             orbit.dolly(io.mouse_wheel, at, size)
         held = [imgui.is_mouse_down(button) for button in range(3)]
@@ -172,6 +197,8 @@ class ScenePanel:
         """Orbit the camera, pan with Shift, dolly with Ctrl."""
         orbit = self._workspace.orbit
         dx, dy = io.mouse_delta.x, io.mouse_delta.y
+        if dx or dy:
+            self._workspace.through.leave()
         if io.key_shift:
             orbit.pan(dx, dy, height)
         elif io.key_ctrl:
@@ -182,6 +209,7 @@ class ScenePanel:
     def _fly(self, io, height: int) -> None:
         """Look around from the camera's position, and move it by keys."""
         workspace = self._workspace
+        workspace.through.leave()
         view, position = workspace.view, workspace.view.position()
         workspace.orbit.rotate(io.mouse_delta.x / 2, io.mouse_delta.y / 2, height)
         axes = view.rotation()

@@ -12,13 +12,14 @@ from imgui_bundle import imgui
 from ....choices import LookName, Mode
 from .overlays import Overlays
 from .style import scaled
+from .view.standard_views import STANDARD_VIEWS
 from .workspace import Workspace
 
 MODES = get_args(Mode)
 LOOKS: tuple[LookName | None, ...] = (None, *get_args(LookName))
-TOOLS = {"select": "Q", "move": "W", "turn": "E", "scale": "R"}
+TOOLS = {"select": "Q", "move": "W", "rotate": "E", "scale": "R"}
 #: The unit of each tool's step, and its drag speed.
-_UNITS = {"move": ("units", 0.01), "turn": ("degrees", 0.5), "scale": ("per cent", 0.5)}
+_UNITS = {"move": ("units", 0.01), "rotate": ("degrees", 0.5), "scale": ("per cent", 0.5)}
 _LEAST, _MOST = 1e-4, 1e6
 
 
@@ -41,10 +42,32 @@ def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
     imgui.begin_disabled(workspace.display.as_rendered)
     _draw_modes(workspace)
     imgui.end_disabled()
-    _beside("Parallel", boxes=1)
-    _, workspace.view.orthographic = imgui.checkbox("Parallel", workspace.view.orthographic)
+    _beside("View")
+    _draw_views(workspace)
     _beside("Show")
     overlays.draw_menu()
+
+
+def _draw_views(workspace: Workspace) -> None:
+    """Lay out the views along the axes, and those through cameras."""
+    if imgui.button("View"):
+        imgui.open_popup("view")
+    if not imgui.begin_popup("view"):
+        return
+    for name, (_, _, key) in STANDARD_VIEWS.items():
+        if imgui.menu_item_simple(name, key):
+            workspace.look_from(name)
+    imgui.separator()
+    if imgui.menu_item_simple("Orthographic", "5", workspace.view.orthographic):
+        workspace.toggle_orthographic()
+    cameras = list(workspace.scene.data.cameras.values())
+    if cameras:
+        imgui.separator_text("Through a camera")
+    for node in cameras:
+        name = f"{node.name or 'camera'}##{node.id}"
+        if imgui.menu_item_simple(name, None, workspace.through.node is node):
+            workspace.through.look(node, workspace.bounds)
+    imgui.end_popup()
 
 
 def _draw_looks(workspace: Workspace) -> None:

@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-from ....model import primitives
-from ....model.scene.ambient_lights import HemisphereLight
-from ....model.scene.cameras import PerspectiveCamera
-from ....model.scene.lights import DIRECT_LIGHTS
 from ....model.scene.nodes import Node
 from ..gizmo import on_ground
+from ..new_things.adding import add_new
 from ..node_commands import (
     AddNodes,
     DeleteNodes,
@@ -22,30 +16,13 @@ from ..node_commands import (
 from ..value_commands import SetValues
 from .workspace import Workspace
 
-#: Things that can be added, by menu label.
-ADDED: dict[str, Callable[[], Any]] = {
-    "Empty": lambda: None,
-    "Box": primitives.box,
-    "Sphere": primitives.uv_sphere,
-    "Icosphere": primitives.icosphere,
-    "Cylinder": primitives.cylinder,
-    "Torus": primitives.torus,
-    "Plane": primitives.plane,
-    **{f"{name.capitalize()} light": light for name, light in DIRECT_LIGHTS.items()},
-    "Hemisphere light": HemisphereLight,
-    "Camera": PerspectiveCamera,
-}
-
 
 def add(workspace: Workspace, what: str, parent: Node | None = None) -> None:
-    """Add a node with a new object, at the camera's target, or below a node."""
-    name = what.lower()
-    place = (0.0, 0.0, 0.0) if parent is not None else workspace.view.target
-
-    def add_one(scene):
-        scene.add(ADDED[what](), name=name, parent=parent, translation=place)
-
-    workspace.do(AddNodes(workspace.scene, add_one, f"Add {name}"))
+    """Add a new thing in view, on the ground, at the top of the tree or below a node."""
+    label = f"Add {what.lower()}"
+    workspace.do(
+        AddNodes(workspace.scene, lambda scene: add_new(scene, what, workspace.view, parent), label)
+    )
     if parent is not None:
         workspace.hierarchy.set_open(parent, True)
 
@@ -77,7 +54,7 @@ def put_on_ground(workspace: Workspace) -> None:
     nodes = workspace.document.selection.nodes
     if nodes:
         move = on_ground(workspace.scene, workspace.view.up)
-        workspace.do(MoveNodes(workspace.scene, nodes, move, counted("Put down", nodes)))
+        workspace.do(MoveNodes(workspace.scene, nodes, move, counted("Put on the ground", nodes)))
 
 
 def toggle_visible(workspace: Workspace) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from typing import Any
@@ -21,6 +21,7 @@ from ....io.loaders import load_mesh, load_texture
 from ....model.materials.material import Material
 from ....model.scene.cameras import Camera, PerspectiveCamera
 from ....model.scene.nodes import Node
+from ....model.scene.orbiting import home_axes
 from ....model.scene.scene import Scene
 from ....stage.views.orbit import OrbitController
 from ....stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
@@ -31,14 +32,21 @@ from ..document import SceneDocument
 from ..dropping import drop_file
 from ..hierarchy import Hierarchy
 from ..history import Command
+from ..new_things.starts import STARTS, Start, empty
 from ..recovery import Recovery
 from ..resource_list import ResourceList
 from ..value_commands import SetValues
+from .view.ground_grid import with_grid
+from .view.standard_views import look_from
+from .view.through_camera import ThroughCamera
 
 #: The panels, by their titles.
 PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
 #: Pictures drawn until a field receives the focus.
 FOCUSING = 6
+#: Half the side of the ground that is framed, and the radius of what is shown, while there is
+#: nothing.
+EMPTY_REACH, EMPTY_RADIUS = 2.5, 4.0
 #: Maximum time step of one picture, in seconds.
 LONGEST_STEP = 0.1
 
@@ -50,7 +58,7 @@ class Tools:
     Attributes
     ----------
     chosen : str
-        ``"select"``, ``"move"``, ``"turn"`` or ``"scale"``.
+        ``"select"``, ``"move"``, ``"rotate"`` or ``"scale"``.
     is_local : bool
         Whether tools work along the axes of the node.
     snaps : bool
@@ -62,7 +70,7 @@ class Tools:
     is_local: bool = False
     snaps: bool = False
     steps: dict[str, float] = field(
-        default_factory=lambda: {"move": 0.25, "turn": 15.0, "scale": 10.0}
+        default_factory=lambda: {"move": 0.25, "rotate": 15.0, "scale": 10.0}
     )
 
 
@@ -78,11 +86,15 @@ class Panels:
         Whether they are to go where they are at first.
     pictures_to_focus : int
         As long as it is not 0, what is typed waits for a field to appear.
+    offers_start, shows_keys : bool
+        Whether the choice of scenes to start from, or the list of keys, is open.
     """
 
     closed: set[str] = field(default_factory=set)
     wants_usual_places: bool = False
     pictures_to_focus: int = 0
+    offers_start: bool = False
+    shows_keys: bool = False
 
 
 @dataclass
@@ -120,6 +132,7 @@ class Workspace:
     hierarchy : Hierarchy
     view : Viewpoint
     orbit : OrbitController
+    through : ThroughCamera
     display : Display
     tools : Tools
     panels : Panels
@@ -154,7 +167,7 @@ class Workspace:
         self.recent = RecentFiles()
         self._drags = 0
         self._autosave: Autosave | None = None
-        self._take(SceneDocument())
+        self.start(STARTS[0])
 
     def _take(self, document: SceneDocument) -> None:
         if self._autosave is not None:
@@ -167,6 +180,7 @@ class Workspace:
         self.resources = ResourceList(document.scene)
         self.view = Viewpoint(np.zeros(3), 10.0)
         self.orbit = OrbitController(self.view)
+        self.through = ThroughCamera(self.view)
         self._bounds: tuple[tuple, Sphere] | None = None
         self.frame(())
 
@@ -181,8 +195,18 @@ class Workspace:
         return self.document.console
 
     def new(self) -> None:
-        """Start an empty scene."""
-        self._take(SceneDocument(console=self.console))
+        """Start a new scene, and offer others to start from."""
+        self.start(STARTS[0])
+        self.panels.offers_start = True
+
+    def start(self, start: Start) -> None:
+        """Edit a scene to start from."""
+        console = self.console if hasattr(self, "document") else None
+        self._take(SceneDocument(start.make(), console=console))
+        camera = self.scene.data.camera_node()
+        if start.is_seen_through and camera is not None:
+            self.through.look(camera, self.bounds)
+            self.through.leave()
 
     def begin(self, path: str) -> None:
         """Edit a file's scene, or a new one if the file does not exist.
@@ -191,7 +215,7 @@ class Workspace:
         ------
         FileFormatError, FileAccessError
         """
-        self._edit(SceneDocument.begin(path, console=self.console), path)
+        self._edit(SceneDocument.begin(path, console=self.console, new=empty), path)
 
     def open(self, path: str) -> bool:
         """Edit a file's scene; errors go to the console."""
@@ -231,15 +255,15 @@ class Workspace:
         self.recent.add(path)
         return self.do(command)
 
-    def load_texture(self, path: str, material: Material, slot: str) -> bool:
-        """Use an image as a texture of a material; errors go to the console."""
+    def load_texture(self, path: str, materials: Sequence[Material], slot: str) -> bool:
+        """Use an image as a texture of materials; errors go to the console."""
         try:
             texture = load_texture(path)
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
         label = f"Load {os.path.basename(path)}"
-        return self.do(SetValues([material], {slot: texture}, label))
+        return self.do(SetValues(materials, {slot: texture}, label))
 
     def load_mesh(self, path: str, node: Node) -> bool:
         """Give a file's mesh to a node; errors go to the console."""
@@ -318,6 +342,31 @@ class Workspace:
         if self.document.moves:
             self.document.animator.seek(0.0)
 
+    # The view
+
+    def look_from(self, name: str) -> None:
+        """Look from one of the standard views."""
+        self.through.leave()
+        look_from(self.view, name)
+
+    def toggle_orthographic(self) -> None:
+        """Look with or without perspective."""
+        self.through.leave()
+        self.view.orthographic = not self.view.orthographic
+
+    def look_through(self) -> None:
+        """Look through the selected camera, or the first one; or stop looking through one."""
+        if self.through.node is not None:
+            self.through.leave()
+            return
+        selected = self.document.selection.active
+        is_camera = selected is not None and isinstance(selected.object, Camera)
+        node = selected if is_camera else self.scene.data.camera_node()
+        if node is None:
+            self.console.write("message", "there is no camera: Add has one")
+        else:
+            self.through.look(node, self.bounds)
+
     def hold_keys(self) -> None:
         """Queue typed text until a field has the focus."""
         self.panels.pictures_to_focus = FOCUSING
@@ -329,7 +378,10 @@ class Workspace:
 
     def camera(self) -> tuple[Camera, np.ndarray]:
         """Return the camera of the view and its pose, for `engine3d.render`."""
-        camera = self.view.camera(self.bounds)
+        node = self.through.node
+        if node is not None:
+            return node.object, node.world_pose
+        camera = self.view.camera(with_grid(self.bounds, self.view))
         if isinstance(camera, PerspectiveCamera):
             camera.reversed_depth = True
         return camera, self.view.pose()
@@ -343,19 +395,28 @@ class Workspace:
         key = self.changes, self.scene.data.arrays.changes
         if self._bounds is None or self._bounds[0] != key:
             low, high = self.scene.bounds
-            radius = float(linalg.length((high - low) * 0.5)) or 1.0
+            radius = float(linalg.length((high - low) * 0.5)) or EMPTY_RADIUS
             self._bounds = key, Sphere((low + high) * 0.5, radius)
         return self._bounds[1]
 
     def frame(self, nodes: tuple[Node, ...]) -> None:
         """Frame some nodes, or the whole scene."""
+        self.through.leave()
         boxes = [_corners(node.bounds) for node in nodes if node.bounds is not None]
         boxes += [node.world_pose[:3, 3][None] for node in nodes]
         points = np.concatenate(boxes or [_corners(self.scene.bounds)])
         if (points.max(axis=0) == points.min(axis=0)).all():  # a light, or nothing at all
-            points = _corners(points[0] + np.array([[-1.0], [1.0]]) * np.ones(3))
+            points = _around(points[0], self.view.up, bool(nodes))
         self.view.frame(points, self.aspect)
         self.changes += 1
+
+
+def _around(point: np.ndarray, up: tuple[float, float, float], is_node: bool) -> np.ndarray:
+    """Return the corners of a cube around a node's place, or of the ground around the origin."""
+    if is_node:
+        return _corners(point + np.array([[-1.0], [1.0]]) * np.ones(3))
+    right, _, back = home_axes(up) * EMPTY_REACH
+    return np.array([point + x * right + z * back for x in (-1, 1) for z in (-1, 1)])
 
 
 def _corners(box: np.ndarray) -> np.ndarray:

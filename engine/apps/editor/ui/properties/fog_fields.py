@@ -1,60 +1,45 @@
 """The property fields of a scene's fog.
 
-In: a scene. Out: a new fog for it, since fog is immutable; drags are identified by field numbers.
+In: a scene. Out: a new fog for it, since fog is immutable.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
-from imgui_bundle import imgui
-
-from ....model.materials.display_colors import display_color
-from ....model.scene.fog import ExponentialFog, Fog
-from ....model.scene.scene import Scene
-from ....stage.chosen_surroundings import fog_color
+from .....model.scene.fog import ExponentialFog, Fog
+from .....model.scene.scene import Scene
+from .....stage.chosen_surroundings import fog_color
+from .fields import Fields
 
 _KINDS = {type(None): "none", Fog: "linear", ExponentialFog: "exponential"}
 _LEAST = 1e-4  # between near and far
 
 
-def draw_fog(
-    scene: Scene,
-    radius: float,
-    assign: Callable[[Fog | ExponentialFog | None], None],
-    follow_drag: Callable[[], None],
-) -> None:
+def draw_fog(fields: Fields, scene: Scene, radius: float) -> None:
     """Lay out the kind of fog and its parameters.
 
     Parameters
     ----------
+    fields : Fields
     scene : Scene
     radius : float
         Of what the scene shows: a new fog hides what lies so many times as far away.
-    assign : callable
-        Called with the fog that is to be the scene's.
-    follow_drag : callable
-        Called after each field that can be dragged.
     """
     now = scene.fog
-    if imgui.begin_combo("Fog", _KINDS[type(now)]):
-        for kind, name in _KINDS.items():
-            if imgui.selectable(name, isinstance(now, kind))[0] and not isinstance(now, kind):
-                assign(_new_fog(kind, scene, radius))
-        imgui.end_combo()
+    chosen = fields.choice("Kind", _KINDS[type(now)], [(name, k) for k, name in _KINDS.items()])
+    if chosen is not None and not isinstance(now, chosen):
+        fields.set([scene], {"fog": _new_fog(chosen, scene, radius)})
     if now is None:
         return
-    changed, color = imgui.color_edit3("Fog colour", list(display_color(now.color, "srgb")))
-    follow_drag()
-    if changed:
-        assign(replace(now, color=tuple(round(255 * part) for part in color)))
+    color = fields.new_color("Colour", now.color)
+    if color is not None:
+        fields.drag([(scene, {"fog": replace(now, color=color)})])
     for name, value in _numbers_of(now).items():
         speed = max(abs(value) * 0.01, 1e-5)
-        changed, number = imgui.drag_float(f"Fog {name}", value, speed, 0.0, 1e9, "%.4g")
-        follow_drag()
-        if changed:
-            assign(_with(now, name, max(number, 0.0)))
+        changed = fields.numbers(name.capitalize(), [[value]], speed, low=0.0)
+        if changed is not None:
+            fields.drag([(scene, {"fog": _with(now, name, changed[0])})])
 
 
 def _numbers_of(fog: Fog | ExponentialFog) -> dict[str, float]:

@@ -1,0 +1,90 @@
+"""The window with the list of keys, and of what the mouse does.
+
+In: the menus' entries. Out: a table; Esc or F1 closes it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from imgui_bundle import imgui
+
+from .workspace import Workspace
+
+if TYPE_CHECKING:
+    from .menus import Entry
+
+_TITLE = "Keys and mouse"
+#: What the mouse does in the scene, and with which keys.
+MOUSE = (
+    ("Click", "select; with Shift or Ctrl, add to the selection"),
+    ("Drag", "select what a rectangle holds"),
+    ("Middle button, Alt + left button", "turn the view; with Shift move it, with Ctrl approach"),
+    ("Wheel", "approach what is under the pointer"),
+    ("Right button", "look around; meanwhile W, A, S, D, Q, E fly, with Shift faster"),
+    ("Ctrl while a handle is dragged", "snap, or do not where Snap is on"),
+    ("Double click in Hierarchy", "frame the node"),
+    ("Drag in Hierarchy", "put a node below another"),
+    ("Drag a number; Ctrl + click on it", "change it; type it"),
+)
+
+
+class KeysWindow:
+    """Shows the keys.
+
+    Parameters
+    ----------
+    workspace : Workspace
+    entries : iterable of Entry
+        Of all menus.
+    """
+
+    def __init__(self, workspace: Workspace, entries: Iterable[Entry]) -> None:
+        self._workspace = workspace
+        self._rows = [(entry.keys, entry.label, entry.menu) for entry in entries if entry.keys]
+        self._search = ""
+
+    def draw(self) -> None:
+        """Lay the window out, if it is open."""
+        panels = self._workspace.panels
+        if not panels.shows_keys:
+            return
+        letter, middle = imgui.get_font_size(), imgui.get_main_viewport().get_center()
+        imgui.set_next_window_pos(middle, imgui.Cond_.appearing, (0.5, 0.5))
+        room = imgui.get_main_viewport().size
+        size = min(44 * letter, 0.9 * room.x), min(36 * letter, 0.8 * room.y)
+        imgui.set_next_window_size(size, imgui.Cond_.appearing)
+        flags = imgui.WindowFlags_
+        how = flags.no_docking | flags.no_saved_settings | flags.no_collapse
+        shown, is_open = imgui.begin(_TITLE, True, how)
+        panels.shows_keys = bool(is_open)
+        if shown:
+            if imgui.is_window_focused() and imgui.is_key_pressed(imgui.Key.escape, False):
+                panels.shows_keys = False
+            imgui.set_next_item_width(-1.0)
+            _, self._search = imgui.input_text_with_hint("##search", "Search", self._search)
+            self._draw_rows()
+        imgui.end()
+
+    def _draw_rows(self) -> None:
+        flags = imgui.TableFlags_
+        if not imgui.begin_table(
+            "keys", 2, flags.row_bg | flags.scroll_y | flags.sizing_stretch_prop
+        ):
+            return
+        last = ""
+        for keys, text, heading in [*((k, t, "Mouse") for k, t in MOUSE), *self._rows]:
+            if self._search.casefold() not in f"{keys} {text} {heading}".casefold():
+                continue
+            if heading != last:
+                imgui.table_next_row()
+                imgui.table_next_column()
+                imgui.text_disabled(heading)
+                last = heading
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text_wrapped(keys)
+            imgui.table_next_column()
+            imgui.text_wrapped(text)
+        imgui.end_table()

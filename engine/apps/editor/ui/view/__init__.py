@@ -1,0 +1,1 @@
+"""What the scene panel shows beside the scene: grid, icons, outlines, a camera's picture, views."""

@@ -227,9 +227,16 @@ def test_a_drag_of_the_ball_orbits():
     assert viewer.view.azimuth == turned
 
 
-def test_the_ball_gives_way_to_what_the_file_holds():
+def test_the_ball_gives_way_to_texts():
     viewer = make_viewer(metadata=True)
-    assert viewer.controls._ball.y > viewer.controls.layout.picture.height - 60
+    height = viewer.controls.layout.picture.height
+    assert viewer.controls._ball.y > height - 60
+    rows, columns = np.nonzero((viewer.frame.color[..., :3] != (10, 20, 30)).any(axis=2))
+    viewer.select(int(columns[-1]), int(rows[-1]))
+    assert viewer.selected is not None and viewer.controls._ball.y == height / 2
+    listing = make_viewer()
+    listing.handle(key("O"))
+    assert listing.controls._ball.y > height - 60
     viewer.handle(key("S"))
     assert viewer.controls._ball is None
 

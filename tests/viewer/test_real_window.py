@@ -237,6 +237,25 @@ def test_typed_letters_choose_a_file_in_the_dialog(desktop):
     assert desktop.title.startswith("dice.obj")
 
 
+def test_the_bar_is_clicked_and_hidden(screen, tmp_path):
+    (tmp_path / "cube.obj").write_text(CUBE)
+    size = (600, 440)
+    options = ("--look", "plain", "--size", "x".join(map(str, size)))
+    left, top = ((whole - side) // 2 for whole, side in zip(SCREEN, size, strict=True))
+    with Viewer(screen, tmp_path, "cube.obj", *options) as desktop:
+        desktop.do("mousemove", left + 300, top + 300)
+        plain = desktop.settle()
+        desktop.do("mousemove", left + size[0] - 25, top + 10, "click", "1")
+        listed = desktop.wait_for_change(plain)
+        desktop.do("mousemove", left + 500, top + 400)
+        assert (desktop.settle() != plain).any(axis=2).sum() > 50_000 and listed.any()
+        desktop.settle_after("Escape")
+        alone = desktop.settle_after("F10")
+        assert (alone != plain).any(axis=2)[top : top + 20, left : left + size[0]].mean() > 0.8
+        desktop.do("key", "q")
+        assert desktop.finish() == (0, b"")
+
+
 def test_a_small_window_lists_commands_and_tells_what_is_wrong_with_the_file(screen, tmp_path):
     (tmp_path / "cube.obj").write_text(CUBE)
     options = ("--look", "plain", "--size", "320x240", "--watch")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ..._native.rasterizer import NativeStats
 
 #: What all faces share: these count the scene, or name what drew.
-_SHARED = ("materials", "lights", "instances", "clusters", "triangles", "threads")
+_SHARED = ("materials", "lights", "objects", "instances", "clusters", "triangles", "threads")
 
 
 class LensStats:

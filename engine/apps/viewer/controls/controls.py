@@ -169,15 +169,18 @@ class Controls:
 
     @property
     def _ball(self) -> BallPlace | None:
-        """Where the ball is in the picture: in a corner on the right without text."""
+        """Where the ball is in the picture: at the right, where no text is."""
         viewer = self._viewer
         if not self.has_bar or viewer.walker is not None or viewer.view_renderer.split:
             return None
         radius = RADIUS * self.scale
         inset = radius + scaled(MARGIN, self.scale)
-        height = self.layout.picture.height
-        is_taken = viewer.view_renderer.settings.metadata
-        y = height - inset if is_taken else inset
+        height, panel = self.layout.picture.height, viewer.panel
+        is_list_above = panel is not None and panel.corner == "top right"
+        if not viewer.view_renderer.settings.metadata and not is_list_above:
+            y = inset
+        else:
+            y = height - inset if viewer.selected is None else height / 2
         return BallPlace(self.layout.picture.width - inset, y, radius)
 
     @property

@@ -23,9 +23,12 @@ from .files import Files
 from .hierarchy_panel import HierarchyPanel
 from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
+from .materials.materials_panel import MaterialsPanel
 from .menus import draw_menus, entries, press_keys
+from .motion.timeline_panel import TimelinePanel
 from .panel_layout import load_layout, place_panels, save_layout
 from .properties_panel import PropertiesPanel
+from .render_dialog import RenderDialog
 from .resources_panel import ResourcesPanel
 from .scene_panel import ScenePanel
 from .style import choose_style
@@ -86,15 +89,22 @@ class EditorWindow:
         self._files = Files(self.workspace, self._painter)
         self._resources = ResourcesPanel(self.workspace, self._painter)
         hierarchy = HierarchyPanel(self.workspace)
+        properties = PropertiesPanel(self.workspace, self._files)
+        self._materials = MaterialsPanel(
+            self.workspace, self._painter, properties.draw_material_values
+        )
         self._panels = {
             "Hierarchy": hierarchy,
             "Scene": self._scene,
-            "Properties": PropertiesPanel(self.workspace, self._files),
+            "Properties": properties,
             "Resources": self._resources,
             "Console": ConsolePanel(self.workspace),
+            "Materials": self._materials,
+            "Timeline": TimelinePanel(self.workspace),
         }
         self._files.offer_recovery()
-        self._entries = entries(self.workspace, self._files, hierarchy)
+        self._rendering = RenderDialog(self.workspace, self._files)
+        self._entries = entries(self.workspace, self._files, hierarchy, self._rendering)
         self._pixels = np.zeros((1, 1, 4), np.uint8)
         self._told: set[str] = set()
         self._late: list = []  # events that wait for the next picture, or came while Python ran
@@ -215,9 +225,10 @@ class EditorWindow:
 
     def _is_unfinished(self) -> bool:
         """Return whether the next picture will differ without any event."""
-        if self._files.is_waiting:
+        if self._files.is_waiting or self._rendering.is_waiting:
             time.sleep(WAITING_SECONDS)
-        waits = self._resources.is_waiting or self._files.is_waiting
+        panels = self._resources, self._files, self._materials, self._rendering
+        waits = any(panel.is_waiting for panel in panels)
         moves = self._scene.is_flying or self.workspace.is_moving
         return waits or moves or bool(self._late) or self.workspace.panels.pictures_to_focus > 0
 
@@ -226,7 +237,7 @@ class EditorWindow:
 
     def _lay_out(self) -> None:
         workspace = self.workspace
-        self._guarded(lambda: draw_menus(workspace, self._entries))
+        self._guarded(lambda: draw_menus(workspace, self._entries, self._files))
         flags = imgui.DockNodeFlags_.passthru_central_node
         space = imgui.dock_space_over_viewport(flags=flags)
         if workspace.panels.wants_usual_places:
@@ -237,6 +248,7 @@ class EditorWindow:
             if name not in workspace.panels.closed:
                 self._guarded(panel.draw)
         self._guarded(self._files.draw)
+        self._guarded(self._rendering.draw)
         self._guarded(lambda: press_keys(self._entries))
 
     def _guarded(self, lay_out: Callable[[], object]) -> None:
@@ -260,6 +272,7 @@ class EditorWindow:
 
     def close(self) -> None:
         """Close the window; may be called twice."""
+        self._rendering.close()
         self._scene.close()
         if self._context is not None:
             imgui.destroy_context(self._context)

@@ -11,6 +11,7 @@ from ....model.scene.nodes import Node
 from ..hierarchy import Row
 from ..node_commands import Reparent
 from ..value_commands import SetValues
+from .materials import material_actions
 from .panel_layout import begin_panel
 from .selection_actions import ADDED, add, delete, duplicate, group
 from .workspace import Workspace
@@ -209,6 +210,7 @@ class HierarchyPanel:
     def _accept_drop(self, parent: Node | None) -> None:
         if not imgui.begin_drag_drop_target():
             return
+        material_actions.accept(self._workspace, parent)
         payload = imgui.accept_drag_drop_payload_py_id(_PAYLOAD)
         if payload is not None:
             scene, selection = self._workspace.scene, self._workspace.document.selection

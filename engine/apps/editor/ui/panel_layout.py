@@ -94,6 +94,8 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
         "Properties": right,
         "Console": below,
         "Resources": below,
+        "Materials": below,
+        "Timeline": below,
     }
     for name, place in places.items():
         builder.dock_builder_dock_window(name, place)

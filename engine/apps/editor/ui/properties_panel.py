@@ -29,6 +29,7 @@ from ....model.spatial.colliders import BoxCollider, MeshCollider, SphereCollide
 from ..value_commands import SetValues
 from .files import Files
 from .fog_fields import draw_fog
+from .motion.motion_fields import MotionFields
 from .panel_layout import begin_panel
 from .workspace import Workspace
 
@@ -56,6 +57,7 @@ class PropertiesPanel:
     def __init__(self, workspace: Workspace, files: Files) -> None:
         self._workspace, self._files = workspace, files
         self._drag: Hashable = None
+        self._motion = MotionFields(workspace)
 
     def draw(self) -> None:
         """Lay the panel out."""
@@ -175,6 +177,7 @@ class PropertiesPanel:
         self._flag(nodes, "receive_shadows", "Receive shadows")
         if imgui.collapsing_header("Transform", imgui.TreeNodeFlags_.default_open):
             self._draw_transform(node)
+        self._motion.draw(node)
         held = node.object
         if isinstance(held, Mesh | InstancedMesh):
             self._draw_mesh(node, held)
@@ -240,6 +243,10 @@ class PropertiesPanel:
                 if chosen and entry.thing is not now:
                     self._workspace.do(SetValues(things, values(entry.thing)))
         imgui.end_combo()
+
+    def draw_material_values(self, material: Material) -> None:
+        """Lay out what a material is made of, also for other panels."""
+        self._draw_material(material)
 
     def _draw_material(self, material: Material) -> None:
         for name, row in PARAMETERS.items():

@@ -26,17 +26,17 @@ from ....stage.views.orbit import OrbitController
 from ....stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from ...desktop.recent_files import RecentFiles
 from ..autosave import Autosave
+from ..clipboard import Clipboard
 from ..console import Console
 from ..document import SceneDocument
 from ..dropping import drop_file
 from ..hierarchy import Hierarchy
 from ..history import Command
 from ..recovery import Recovery
-from ..resource_list import ResourceList
 from ..value_commands import SetValues
 
 #: The panels, by their titles.
-PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
+PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console", "Timeline", "Materials")
 #: Pictures drawn until a field receives the focus.
 FOCUSING = 6
 #: Maximum time step of one picture, in seconds.
@@ -137,6 +137,7 @@ class Workspace:
         Grows whenever something was done that may show.
     resources : ResourceList
     recent : RecentFiles
+    clipboard : Clipboard
     wants_exit : bool
         Whether the editor is to close.
     """
@@ -152,6 +153,7 @@ class Workspace:
         self.changes = 0
         self.wants_exit = False
         self.recent = RecentFiles()
+        self.clipboard = Clipboard()
         self._drags = 0
         self._autosave: Autosave | None = None
         self._take(SceneDocument())
@@ -164,7 +166,7 @@ class Workspace:
         self.plays, self.moments = False, 0
         self._autosave = Autosave(document)
         self.hierarchy = Hierarchy(document.scene)
-        self.resources = ResourceList(document.scene)
+        self.resources = document.resources
         self.view = Viewpoint(np.zeros(3), 10.0)
         self.orbit = OrbitController(self.view)
         self._bounds: tuple[tuple, Sphere] | None = None
@@ -309,9 +311,11 @@ class Workspace:
     def play_or_pause(self) -> None:
         """Start or pause the time."""
         self.plays = not self.plays
-        if self.plays and not self.document.moves:
+        if not self.plays:
+            self.document.settle()
+        elif not self.document.moves:
             self.plays = False
-            self.console.write("message", "nothing moves: animator.spin(node, period=4) lets it")
+            self.console.write("message", "nothing moves: the menu Motion lets the selected node")
 
     def rewind(self) -> None:
         """Go to time 0."""

@@ -36,7 +36,7 @@ def test_one_of_two_nodes_that_share_a_mesh_is_dressed(document):
     box, _, _, other = document.scene.nodes
     before, plain = SceneState(document.scene), box.object.materials[0]
     material = red(document)
-    assert document.do(Dress(document.scene, [box], material))
+    assert document.do(Dress(document.resources, [box], material))
     assert box.object is not other.object and box.object.positions is other.object.positions
     assert box.object.materials[0] is material and other.object.materials[0] is plain
     after = SceneState(document.scene)
@@ -49,7 +49,7 @@ def test_one_of_two_nodes_that_share_a_mesh_is_dressed(document):
 def test_all_nodes_that_share_a_mesh_go_on_sharing_it(document):
     box, _, _, other = document.scene.nodes
     mesh, material = box.object, red(document)
-    document.do(Dress(document.scene, [box, other], material))
+    document.do(Dress(document.resources, [box, other], material))
     assert box.object is other.object is mesh and mesh.materials[0] is material
 
 
@@ -57,7 +57,7 @@ def test_one_material_of_a_mesh_is_replaced(document):
     two, material = document.scene.nodes[1], red(document)
     count = len(two.object.materials)
     old = two.object.materials[0]
-    document.do(Dress(document.scene, [two], material, 0))
+    document.do(Dress(document.resources, [two], material, 0))
     assert two.object.materials[0] is material and len(two.object.materials) == count
     document.undo()
     assert two.object.materials[0] is old
@@ -65,12 +65,12 @@ def test_one_material_of_a_mesh_is_replaced(document):
 
 def test_what_has_no_mesh_gets_no_material(document):
     with pytest.raises(e3d.InvalidArgumentError, match="a mesh"):
-        Dress(document.scene, [document.scene.nodes[2]], e3d.Material())
+        Dress(document.resources, [document.scene.nodes[2]], e3d.Material())
 
 
 def test_a_dressed_node_is_saved_by_its_primitive(document, tmp_path):
     box = document.scene.nodes[0]
-    document.do(Dress(document.scene, [box], red(document)))
+    document.do(Dress(document.resources, [box], red(document)))
     assert document.save(tmp_path / "a.e3d.json")
     assert '"primitive":"box"' in (tmp_path / "a.e3d.json").read_text()
     loaded = e3d.load_scene(tmp_path / "a.e3d.json")
@@ -108,6 +108,19 @@ def test_a_material_that_nobody_uses_is_in_the_file(document, tmp_path):
 
 def test_a_material_in_use_is_not_discarded(document):
     material = red(document)
-    document.do(Dress(document.scene, [document.scene.nodes[0]], material))
+    document.do(Dress(document.resources, [document.scene.nodes[0]], material))
     with pytest.raises(e3d.InvalidArgumentError, match="nodes use"):
         DiscardMaterial(document.resources, material)
+
+
+def test_a_named_material_that_is_replaced_stays_in_the_list(document):
+    box = document.scene.nodes[0]
+    first, second = red(document), e3d.Material(name="blue")
+    document.resources.drop(first)
+    document.do(Dress(document.resources, [box], first))
+    document.do(Dress(document.resources, [box], second))
+    assert document.resources.find("red") is first and document.resources.users(first) == ()
+    document.undo()
+    assert document.resources.kept_materials == ()
+    document.redo()
+    assert document.resources.kept_materials == (first,)

@@ -14,7 +14,6 @@ from ...model.geometry.twins import twin_of
 from ...model.materials.material import Material, copy_of
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.nodes import Node
-from ...model.scene.scene import Scene
 from .history import Command
 from .resource_list import ResourceList
 from .value_commands import SetValues
@@ -58,11 +57,11 @@ class DiscardMaterial(Command):
 
 
 class Dress(Command):
-    """Gives nodes a material.
+    """Gives nodes a material; replaced ones that have names stay in the list.
 
     Parameters
     ----------
-    scene : Scene
+    resources : ResourceList
     nodes : iterable of Node
         Those without a mesh are left as they are.
     material : Material
@@ -76,25 +75,41 @@ class Dress(Command):
     """
 
     def __init__(
-        self, scene: Scene, nodes: Iterable[Node], material: Material, slot: int | None = None
+        self,
+        resources: ResourceList,
+        nodes: Iterable[Node],
+        material: Material,
+        slot: int | None = None,
     ) -> None:
         self.nodes = tuple(node for node in nodes if mesh_of(node) is not None)
         if not self.nodes:
             raise InvalidArgumentError("a material needs a node with a mesh")
         what = repr(self.nodes[0].name) if len(self.nodes) == 1 else f"{len(self.nodes)} nodes"
         self.label = f"Give {material.name or 'a material'} to {what}"
-        self._scene, self._material, self._slot = scene, material, slot
+        self._resources, self._material, self._slot = resources, material, slot
         self._steps: list[SetValues] | None = None
+        self._kept: list[Material] = []
 
     def do(self) -> None:
         if self._steps is None:
             self._steps = self._made()
+            self._kept = self._named()
         for step in self._steps:
             step.do()
+        for material in self._kept:
+            self._resources.keep(material)
 
     def undo(self) -> None:
         for step in reversed(self._steps or []):
             step.undo()
+        for material in self._kept:
+            self._resources.drop(material)
+
+    def _named(self) -> list[Material]:
+        """Return the materials with names that may be replaced, and are not kept anyway."""
+        meshes = {mesh for node in self.nodes if (mesh := mesh_of(node)) is not None}
+        held = dict.fromkeys(each for mesh in meshes for each in mesh.materials if each.name)
+        return [each for each in held if each not in self._resources.kept_materials]
 
     def _made(self) -> list[SetValues]:
         """Return a step for each mesh, whose nodes go on sharing what they get."""
@@ -110,7 +125,7 @@ class Dress(Command):
         if self._slot is not None and self._slot < len(materials):
             materials = list(mesh.materials)
             materials[self._slot] = self._material
-        users = set(ResourceList(self._scene).users(mesh))
+        users = set(self._resources.users(mesh))
         is_shared = not users <= set(nodes)
         if is_shared and all(node.object is mesh for node in nodes):
             return SetValues(nodes, {"object": twin_of(mesh, materials, mesh.name)})

@@ -159,7 +159,7 @@ def new_path(node: Node, *, time: float, reach: float) -> Path:
 def _phase(seconds: float) -> float:
     """Return the share of a usual period that seconds are, from 0 to 1."""
     turns = seconds / USUAL_PERIOD
-    return turns - math.floor(turns)
+    return turns - math.floor(turns) + 0.0  # not -0.0
 
 
 # Keyframes

@@ -68,7 +68,7 @@ def motion_entries(
         node, about = orbit.node, orbit.about
         if not orbit.is_about_node or about in numbers:
             put("orbits", node, _orbit_entry(orbit, None if about is None else numbers[about]))
-        elif node in numbers:
+        elif node is not None and node in numbers:
             told.append(f"node {shown(node.name)}: what it circles is gone, and with it the orbit")
     return entries, told
 

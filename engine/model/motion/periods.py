@@ -39,7 +39,8 @@ def common_period(motions: Motions) -> float | None:
 
 
 def _periods(motions: Motions) -> Iterator[float]:
-    yield from (abs(motion.period) for motion in (*motions.spins, *motions.orbits))
+    yield from (abs(spin.period) for spin in motions.spins)
+    yield from (abs(orbit.period) for orbit in motions.orbits)
     yield from (path.period for path in motions.paths)
     for track in motions.tracks:
         first, last = float(track.times[0]), float(track.times[-1])

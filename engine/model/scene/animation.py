@@ -271,11 +271,21 @@ class Motions(NamedTuple):
 
     def joined(self, more: Motions) -> Motions:
         """Return these and other motions."""
-        return Motions(*(one + other for one, other in zip(self, more, strict=True)))
+        return Motions(
+            self.spins + more.spins,
+            self.tracks + more.tracks,
+            self.paths + more.paths,
+            self.orbits + more.orbits,
+        )
 
     def kept(self, keeps: Callable[[NodeMotion], bool]) -> Motions:
         """Return those motions for which a function is true."""
-        return Motions(*(tuple(filter(keeps, kind)) for kind in self))
+        return Motions(
+            tuple(filter(keeps, self.spins)),
+            tuple(filter(keeps, self.tracks)),
+            tuple(filter(keeps, self.paths)),
+            tuple(filter(keeps, self.orbits)),
+        )
 
     def of(self, node: Node) -> tuple[NodeMotion, ...]:
         """Return the motions of a node."""
@@ -302,7 +312,12 @@ Motion = TypeVar("Motion", bound=NodeMotion)
 
 def copied_motions(motions: Motions, copy_of: Callable[[Node], Node]) -> Motions:
     """Return motions for the copies of their nodes."""
-    return Motions(*(_copied(kind, copy_of) for kind in motions))
+    return Motions(
+        _copied(motions.spins, copy_of),
+        _copied(motions.tracks, copy_of),
+        _copied(motions.paths, copy_of),
+        _copied(motions.orbits, copy_of),
+    )
 
 
 def _copied(motions: Iterable[Motion], copy_of: Callable[[Node], Node]) -> tuple[Motion, ...]:

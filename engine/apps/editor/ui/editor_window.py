@@ -98,9 +98,9 @@ class EditorWindow:
             "Scene": self._scene,
             "Properties": properties,
             "Resources": self._resources,
-            "Console": ConsolePanel(self.workspace),
             "Materials": self._materials,
             "Timeline": TimelinePanel(self.workspace),
+            "Console": ConsolePanel(self.workspace),  # the last one is in front of its dock
         }
         self._files.offer_recovery()
         self._rendering = RenderDialog(self.workspace, self._files)
@@ -144,6 +144,8 @@ class EditorWindow:
         happened, self._late = of_one_picture(waiting, holds)
         for event in happened:
             self._take_safely(event)
+        if patience and not happened and self._scene.is_outdated:
+            self._pictures_due = 1
         if self.workspace.lines_to_run:
             self._run_lines()
         self.workspace.tick()

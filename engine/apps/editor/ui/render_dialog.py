@@ -24,6 +24,8 @@ from .workspace import Workspace
 
 _WHAT = {"picture": "Picture", "turn": "Turn", "motion": "Motion"}
 _MOST_SIDE, _MOST_PICTURES, _MOST_FPS = 16384, 5000, 50
+#: Pictures of the window until it shows that the drawing has ended.
+SETTLING = 3
 _TITLE, _PROGRESS = "Render", "Rendering"
 
 
@@ -50,7 +52,7 @@ class Choices:
     camera: Node | None = None
     look: LookName = "studio"
     samples: Samples = 4
-    pictures: int = 48
+    pictures: int = 72
     fps: int = 24
 
 
@@ -73,11 +75,12 @@ class RenderDialog:
         self.choices = Choices()
         self._opens = False
         self._job: RenderJob | None = None
+        self._pictures_due = 0  # of the window, after the end
 
     @property
     def is_waiting(self) -> bool:
         """Whether something is being drawn: the next frame of the window is another one."""
-        return self._job is not None
+        return self._job is not None or self._pictures_due > 0
 
     def open(self) -> None:
         """Open the dialog."""
@@ -97,6 +100,7 @@ class RenderDialog:
 
     def draw(self) -> None:
         """Lay out the dialog, or the progress, if one of them is open."""
+        self._pictures_due = max(self._pictures_due - 1, 0)
         if self._opens:
             imgui.open_popup(_TITLE)
             self._opens = False
@@ -233,7 +237,7 @@ class RenderDialog:
             job.stop()
         imgui.end_disabled()
         if job.is_ended:
-            self._job = None
+            self._job, self._pictures_due = None, SETTLING
             self._tell(job)
             imgui.close_current_popup()
 

@@ -29,12 +29,18 @@ class SceneFigures:
     Parameters
     ----------
     workspace : Workspace
+
+    Attributes
+    ----------
+    shows_rate : bool
+        Whether the line tells of pictures a second, and is out of date a second later.
     """
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self._drawn: deque[float] = deque()
         self._seconds = 0.0
+        self.shows_rate = False
 
     def note(self, seconds: float) -> None:
         """Note a picture that was just drawn in some seconds."""
@@ -47,7 +53,8 @@ class SceneFigures:
         while self._drawn and self._drawn[0] < now - _PERIOD:
             self._drawn.popleft()
         count = len(self._drawn)
-        rate = "at rest" if count < 2 else f"{count / _PERIOD:.0f} fps"
+        self.shows_rate = count > 1
+        rate = f"{count / _PERIOD:.0f} fps" if self.shows_rate else "at rest"
         objects = f"{stats['instances']:,} of {objects_of(self._workspace.scene):,} objects drawn"
         draws = f"{stats['draws']:,} draw{'' if stats['draws'] == 1 else 's'}"
         triangles = f"{stats['triangles_drawn']:,} of {stats['triangles']:,} triangles"

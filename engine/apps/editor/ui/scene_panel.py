@@ -69,6 +69,11 @@ class ScenePanel:
         """Free the renderer."""
         self._pictures.close()
 
+    @property
+    def is_outdated(self) -> bool:
+        """Whether the panel tells of pictures a second though nothing was drawn lately."""
+        return self._figures.shows_rate
+
     def node_under_mouse(self) -> Node | None:
         """Return the node under the mouse, if the mouse is over the scene."""
         if self._frame is None or not self._is_hovered:

@@ -36,7 +36,7 @@ from ..recovery import Recovery
 from ..value_commands import SetValues
 
 #: The panels, by their titles.
-PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console", "Timeline", "Materials")
+PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Materials", "Timeline", "Console")
 #: Pictures drawn until a field receives the focus.
 FOCUSING = 6
 #: Maximum time step of one picture, in seconds.

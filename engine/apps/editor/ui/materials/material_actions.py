@@ -38,7 +38,7 @@ def add_to_selected(workspace: Workspace) -> None:
 
 def give(workspace: Workspace, material: Material, nodes, slot: int | None = None) -> None:
     """Give a material to nodes."""
-    _try(workspace, lambda: Dress(workspace.scene, nodes, material, slot))
+    _try(workspace, lambda: Dress(workspace.resources, nodes, material, slot))
 
 
 def discard(workspace: Workspace, material: Material) -> None:

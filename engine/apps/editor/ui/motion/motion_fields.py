@@ -64,8 +64,6 @@ class MotionFields:
             imgui.same_line()
             if imgui.small_button(name):
                 add(self._workspace)
-        if held:
-            imgui.text_disabled("Space plays and pauses; the panel Timeline shows the time")
 
     def _draw_motion(self, motion: NodeMotion) -> None:
         imgui.separator_text(actions.TITLES[type(motion)])
@@ -257,7 +255,7 @@ class MotionFields:
                 self._drag = None
                 chosen = list(usual)
             imgui.same_line()
-        imgui.set_next_item_width(-imgui.get_font_size() * 7)
+        imgui.new_line()
         changed, new = imgui.drag_float3("Axis", list(map(float, axis)), 0.01)
         self._follow_drag()
         return chosen or (new if changed and any(new) else None)

@@ -184,7 +184,10 @@ class TimelinePanel:
         place, height = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
         name = f"{node.name or f'node {node.id}'}##name"
         size = ((_NAMES - 1.0) * imgui.get_font_size(), height)
-        if imgui.selectable(name, node in selection, 0, size)[0]:
+        imgui.push_style_var(imgui.StyleVar_.selectable_text_align, (0.0, 0.5))
+        chosen = imgui.selectable(name, node in selection, 0, size)[0]
+        imgui.pop_style_var()
+        if chosen:
             (selection.toggle if imgui.get_io().key_ctrl else selection.set)(
                 node if imgui.get_io().key_ctrl else [node]
             )

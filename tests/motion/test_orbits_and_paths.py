@@ -97,7 +97,7 @@ def test_a_node_cannot_circle_what_moves_with_it(scene, animator):
     with pytest.raises(e3d.InvalidArgumentError, match="'b' cannot circle"):
         animator.orbit(b, below, radius=1, period=1)
     assert len(motions_of(animator).orbits) == 1
-    with pytest.raises(e3d.InvalidArgumentError, match="is not a node of this scene"):
+    with pytest.raises(e3d.InvalidArgumentError, match="about must be a node of this scene"):
         animator.orbit(b, e3d.Scene().add(), radius=1, period=1)
 
 

@@ -14,8 +14,8 @@ import numpy as np
 from ..._native.loaders import frozen
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
-from ...model.motion.orbits import Orbit, circling
-from ...model.motion.paths import Path
+from ...model.motion.orbits import ORBIT_VALUES, Orbit, circling
+from ...model.motion.paths import PATH_VALUES, Path
 from ...model.scene.animation import (
     MOTION_KINDS,
     Animator,
@@ -31,7 +31,6 @@ from ..reading.json_values import JsonValue
 
 MOTION_KEYS = set(MOTION_KINDS)
 _SPIN_KEYS = {"axis", "period", "phase", "rotation"}
-_ORBIT_KEYS = {"about", "radius", "axis", "period", "phase"}
 #: The values of a path that may be left out.
 _PATH_USUAL: dict[str, Any] = {"phase": 0.0, "end": "close", "smooth": True, "forward": None}
 #: The arrays of keyframes, and the numbers in each row.
@@ -154,7 +153,7 @@ def _track(node: Node, entry: JsonValue) -> Track:
 
 
 def _path(node: Node, entry: JsonValue) -> Path:
-    _check_keys(entry, {"points", "period", *_PATH_USUAL})
+    _check_keys(entry, set(PATH_VALUES))
     held = {name: entry.get(name) for name in _PATH_USUAL}
     points = [row.numbers(3) for row in entry.need("points")]
     try:
@@ -169,7 +168,7 @@ def _path(node: Node, entry: JsonValue) -> Path:
 
 
 def _orbit(node: Node, entry: JsonValue, nodes: list[Node]) -> Orbit:
-    _check_keys(entry, _ORBIT_KEYS)
+    _check_keys(entry, set(ORBIT_VALUES))
     number, phase = entry.get("about"), entry.get("phase")
     about = None if number is None else nodes[number.index(len(nodes), "nodes")]
     try:

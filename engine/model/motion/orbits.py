@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 from weakref import ref
 
 import numpy as np
@@ -22,6 +22,10 @@ from .node_motion import NodeMotion, turns_at
 
 if TYPE_CHECKING:
     from typing_extensions import Self
+
+
+#: What an orbit is made of, besides its node, in the order of its parameters.
+ORBIT_VALUES = ("about", "radius", "axis", "period", "phase")
 
 
 class Orbit(NodeMotion):
@@ -91,6 +95,11 @@ class Orbit(NodeMotion):
             place = linalg.transform_points(into, place[np.newaxis])[0]
         if np.isfinite(place).all():
             node.translation = place
+
+    def changed(self, **values: Any) -> Orbit:
+        """Return the orbit with some of `ORBIT_VALUES` replaced."""
+        held = {name: getattr(self, name) for name in ORBIT_VALUES} | values
+        return Orbit(cast("Node", self.node), *held.values())
 
     def copied(self, copy_of: Callable[[Node], Node]) -> Self | None:
         made = super().copied(copy_of)

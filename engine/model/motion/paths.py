@@ -8,7 +8,7 @@ and Rom (1974); a point is reached after a share of the period as the distances 
 from __future__ import annotations
 
 import math
-from typing import get_args
+from typing import Any, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +23,13 @@ from ..scene.nodes import Node
 from .interpolation import spline
 from .node_motion import NodeMotion, turns_at
 
+ENDS = get_args(PathEnd)
+FORWARDS = get_args(Forward)
 _STEEPEST = 1.0 - 1e-9  # cosine from +Y, above which a direction has no heading
+
+
+#: What a path is made of, besides its node, in the order of its parameters.
+PATH_VALUES = ("points", "period", "phase", "end", "smooth", "forward")
 
 
 class Path(NodeMotion):
@@ -52,13 +58,18 @@ class Path(NodeMotion):
         super().__init__(node)
         self.points = _checked_points(points)
         self.period, self.phase = positive(period, "period"), finite(phase, "phase")
-        self.end: PathEnd = choose(end, get_args(PathEnd), "end")
+        self.end: PathEnd = choose(end, ENDS, "end")
         self.smooth = flag(smooth, "smooth")
         self.forward: Forward | None = (
-            None if forward is None else choose(forward, get_args(Forward), "forward")
+            None if forward is None else choose(forward, FORWARDS, "forward")
         )
         self._knots, self.shares = _knots(self.points, self.end == "close")
         self._tangents = _tangents(self._knots, self.shares, self.smooth, self.end == "close")
+
+    def changed(self, **values: Any) -> Path:
+        """Return the path with some of `PATH_VALUES` replaced."""
+        held = {name: getattr(self, name) for name in PATH_VALUES} | values
+        return Path(cast("Node", self.node), *held.values())
 
     def move(self, time: float) -> None:
         """Place the node."""
@@ -121,14 +132,9 @@ def facing(direction: np.ndarray, forward: Forward, backwards: bool = False) -> 
     if abs(float(unit[1])) > _STEEPEST:
         return None
     pose = linalg.look_at((0.0, 0.0, 0.0), unit, (0.0, 1.0, 0.0))  # turns -Z in the direction
-    right, back = pose[:3, 0].copy(), pose[:3, 2].copy()
-    columns = {
-        "-Z": (right, back),
-        "+Z": (-right, -back),
-        "+X": (-back, right),
-        "-X": (back, -right),
-    }
-    pose[:3, 0], pose[:3, 2] = columns[forward]
+    sign = 1.0 if forward[0] == "-" else -1.0
+    right, back = sign * pose[:3, 0], sign * pose[:3, 2]
+    pose[:3, 0], pose[:3, 2] = (right, back) if forward[1] == "Z" else (back, -right)
     return linalg.matrix_to_quaternion(pose)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base import linalg
-from ...base.numbers import floats, real
+from ...base.numbers import floats, real, shown
 from ...base.validation import finite, flag, frozen_floats, vector3
 from ...choices import Forward, PathEnd
 from ...errors import InvalidArgumentError
@@ -194,8 +194,9 @@ class Animator(Clock):
         InvalidArgumentError
             Also if the node in the middle moves with the node.
         """
-        nodes = [node] if about is None else [node, about]
-        self._scene.select(nodes)
+        self._scene.select([node])
+        if not (about is None or (isinstance(about, Node) and about.scene is self._scene)):
+            raise InvalidArgumentError(f"about must be a node of this scene, not {shown(about)}")
         made = Orbit(node, about, radius, axis, period, phase)
         check_center(made, self._motions.orbits)
         self._add(Motions(orbits=(made,)))
@@ -293,7 +294,7 @@ class Motions(NamedTuple):
 
 
 #: The names of the kinds of motions.
-MOTION_KINDS = Motions._fields
+MOTION_KINDS = ("spins", "tracks", "paths", "orbits")
 
 
 def motions_of(animator: Animator) -> Motions:

@@ -11,6 +11,7 @@ from ....model.scene.nodes import Node
 from ..hierarchy import Row
 from ..node_commands import Reparent
 from ..value_commands import SetValues
+from . import clipboard_actions
 from .materials import material_actions
 from .panel_layout import begin_panel
 from .selection_actions import ADDED, add, delete, duplicate, group
@@ -187,6 +188,12 @@ class HierarchyPanel:
         workspace = self._workspace
         if imgui.menu_item_simple("Rename", "F2"):
             self.rename(node)
+        if imgui.menu_item_simple("Cut", "Ctrl+X"):
+            clipboard_actions.cut(workspace)
+        if imgui.menu_item_simple("Copy", "Ctrl+C"):
+            clipboard_actions.copy(workspace)
+        if imgui.menu_item_simple("Paste", "Ctrl+V"):
+            clipboard_actions.paste(workspace)
         if imgui.menu_item_simple("Duplicate", "Ctrl+D"):
             duplicate(workspace)
         if imgui.menu_item_simple("Group", "Ctrl+G"):

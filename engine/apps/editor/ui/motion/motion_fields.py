@@ -6,16 +6,16 @@ In: the active node. Out: commands; a mouse drag is one step from press to relea
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
 
-from .....choices import Forward, PathEnd
+from .....choices import PathEnd
 from .....errors import InvalidArgumentError
 from .....model.motion.node_motion import NodeMotion
 from .....model.motion.orbits import Orbit
-from .....model.motion.paths import Path
+from .....model.motion.paths import ENDS, FORWARDS, Path
 from .....model.scene.animation import Spin, Track
 from .....model.scene.nodes import Node
 from ...motion_commands import with_repeat
@@ -26,7 +26,7 @@ from . import motion_actions as actions
 _AXES = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 _ENDS: dict[PathEnd, str] = dict(
     zip(
-        get_args(PathEnd),
+        ENDS,
         ("goes on to the first", "goes back", "jumps to the first", "stays"),
         strict=True,
     )
@@ -94,9 +94,7 @@ class MotionFields:
 
     def _draw_orbit(self, orbit: Orbit) -> None:
         def change(**values: Any) -> None:
-            names = ("about", "radius", "axis", "period", "phase")
-            held = {name: getattr(orbit, name) for name in names} | values
-            self._put(lambda: Orbit(orbit.node, *held.values()))
+            self._put(lambda: orbit.changed(**values))
 
         self._draw_about(orbit, change)
         speed = max(0.01 * orbit.radius, 1e-4)
@@ -148,9 +146,7 @@ class MotionFields:
 
     def _draw_path(self, path: Path) -> None:
         def change(**values: Any) -> None:
-            names = ("points", "period", "phase", "end", "smooth", "forward")
-            held = {name: getattr(path, name) for name in names} | values
-            self._put(lambda: Path(path.node, *held.values()))
+            self._put(lambda: path.changed(**values))
 
         self._draw_points(path, change)
         period = self._period("Seconds a way", path.period)
@@ -165,7 +161,7 @@ class MotionFields:
                     change(end=end)
             imgui.end_combo()
         if imgui.begin_combo("Faces ahead", path.forward or "nothing"):
-            for forward in (None, *get_args(Forward)):
+            for forward in (None, *FORWARDS):
                 is_now = forward == path.forward
                 if imgui.selectable(forward or "nothing", is_now)[0] and not is_now:
                     change(forward=forward)

@@ -10,6 +10,7 @@ from engine3d.model.motion.orbits import Orbit, in_order
 from engine3d.model.motion.paths import facing
 from engine3d.model.motion.periods import LONGEST, common_period
 from engine3d.model.scene.animation import motions_of
+from engine3d.stage.open_model import open_model
 
 
 @pytest.fixture
@@ -240,6 +241,21 @@ def test_files_hold_orbits_and_paths_to_the_bit(tmp_path):
     e3d.save_scene(scene, path)
     e3d.save_scene(loaded, again)
     assert path.read_bytes() == again.read_bytes()
+
+
+def test_programs_repeat_a_file_when_all_its_motions_do(tmp_path):
+    path = tmp_path / "solar.e3d.json"
+    e3d.save_scene(solar(tmp_path), path)
+    viewed = open_model(path)
+    assert viewed.period == 36.0 and viewed.update == viewed.scene.animator.seek
+    e3d.save_scene(scene_at_rest(), path)
+    assert open_model(path).update is None
+
+
+def scene_at_rest():
+    scene = e3d.Scene()
+    scene.add(e3d.box())
+    return scene
 
 
 def test_a_copied_scene_moves_by_itself(tmp_path):

@@ -27,6 +27,7 @@ __all__ = [
     "EulerOrder",
     "Falloff",
     "Filter",
+    "Forward",
     "FrameCull",
     "HiddenSurfaces",
     "ImageFormat",
@@ -44,6 +45,7 @@ __all__ = [
     "Normals",
     "OutputMode",
     "PageSize",
+    "PathEnd",
     "PixelFormat",
     "PointShape",
     "PointerShape",
@@ -113,6 +115,9 @@ JointKind = Literal[
 ]
 ShapesOf = Literal["visual", "collision", "both"]
 Loop = Literal["repeat", "once", "ping-pong"]
+#: What a node that follows a path does at its last point, and the axis of it that faces ahead.
+PathEnd = Literal["close", "return", "restart", "stop"]
+Forward = Literal["+X", "-X", "+Z", "-Z"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
 PixelFormat = Literal["rgba", "bgra"]
 PointerShape = Literal[

@@ -20,6 +20,9 @@ from ..model.geometry.mesh import Mesh
 from ..model.geometry.twins import take_over
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
+from ..model.motion.periods import common_period
+from ..model.scene.animation import motions_of
+from ..model.scene.scene import Scene
 from .appearance import BARE
 from .coloring import Coloring
 from .overlays.numbers import Numbers
@@ -157,7 +160,7 @@ def view_document(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up=document.up,
-        update=None if scene.animator is None else scene.animator.seek,
+        **_motion_of(scene),
         themed=not is_bare,
         is_scene=document.is_scene,
         appearance=appearance | (BARE if is_bare else {}),
@@ -168,6 +171,14 @@ def view_document(
         unit=document.unit,
         model_edges=document.model_edges,
     )
+
+
+def _motion_of(scene: Scene) -> dict[str, Any]:
+    """Return what moves a scene, and after how many seconds it repeats."""
+    if scene.animator is None:
+        return {}
+    period = common_period(motions_of(scene.animator))
+    return {"update": scene.animator.seek, **({} if period is None else {"period": period})}
 
 
 def _no_image(path: str) -> bool:

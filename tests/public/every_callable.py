@@ -152,6 +152,9 @@ OWNERS: dict[str, Callable[[], Any]] = {
 #: What required parameters get, by name, or by the callable's name and theirs. Functions are
 #: called for it.
 RIGHT: dict[str, Any] = {
+    "Animator.follow.node": lambda owner: owner._scene.nodes[0],
+    "Animator.follow.points": [(0, 0, 0), (1, 0, 0)],
+    "Animator.orbit.node": lambda owner: owner._scene.nodes[0],
     "Animator.spin.nodes": lambda owner: owner._scene.nodes[0],
     "Animator.track.node": lambda owner: owner._scene.nodes[0],
     "Scene.remove.node": lambda owner: owner.nodes[0],

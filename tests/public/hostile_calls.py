@@ -224,6 +224,22 @@ def spun(**arguments):
     return render(shown, size=SIZE, threads=1)
 
 
+def followed(**arguments):
+    shown = scene()
+    animator = e3d.Animator(shown)
+    animator.follow(shown.nodes[0], **arguments)
+    animator.seek(0.5)
+    return render(shown, size=SIZE, threads=1)
+
+
+def circling(**arguments):
+    shown = scene()
+    animator = e3d.Animator(shown)
+    animator.orbit(shown.nodes[0], **arguments)
+    animator.seek(0.5)
+    return render(shown, size=SIZE, threads=1)
+
+
 def timed(name):
     def call(value):
         shown = scene()
@@ -558,6 +574,11 @@ CALLS = {
     "AnimationPlayer.advance": (playing("advance"), {"seconds": 0.5}),
     "AnimationPlayer.speed": (playing("speed"), {"value": 0.5}),
     "AnimationPlayer.loop": (playing("loop"), {"value": "once"}),
+    "Animator.follow": (
+        followed,
+        {"points": [(0, 0, 0), (1, 1, 1)], "period": 2.0, "phase": 0.1},
+    ),
+    "Animator.orbit": (circling, {"radius": 1.0, "period": 2.0, "axis": (0, 1, 0), "phase": 0.1}),
     "Animator.spin": (spun, {"period": 2.0, "axis": (0, 1, 0), "phase": 0.1}),
     "Animator.seek": (timed("seek"), {"value": 0.5}),
     "Animator.advance": (timed("advance"), {"value": 0.5}),

@@ -20,7 +20,7 @@ from engine3d.model.geometry import values
 from engine3d.model.geometry.vertex_attributes import vertex_attributes
 from engine3d.model.materials import colors, textures
 from engine3d.model.materials.material import TEXTURE_SLOTS
-from engine3d.model.motion import clips, player
+from engine3d.model.motion import clips, paths, player
 from engine3d.model.scene import lights, shadow_casting
 from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
@@ -55,6 +55,8 @@ ACCEPTED = {
     "ShadowTaps": shadow_casting.TAPS,
     "MotionPath": clips.PATHS,
     "Interpolation": clips.INTERPOLATIONS,
+    "PathEnd": paths.ENDS,
+    "Forward": paths.FORWARDS,
     "JointKind": urdf_joints.KINDS,
     "Loop": player.LOOPS,
     "BuiltInEnvironment": environment.BUILT_IN,

@@ -179,4 +179,4 @@ def test_what_moved_nodes_that_nobody_has_is_forgotten(scene):
     del node
     gc.collect()
     animator.seek(1.0)
-    assert motions_of(animator) == ((), ())
+    assert not any(motions_of(animator))

@@ -37,7 +37,7 @@ REPEATED_LISTS = {
     "a row for each of a list that stands in a layer that knows nothing of the rows": (
         "apps.editor.console, apps.editor.ui.console_panel: action to warning",
         "apps.editor.ui.editor_window, apps.editor.ui.panel_layout, apps.editor.ui.workspace: "
-        "Console to Scene",
+        "Console to Timeline",
         "apps.viewer.actions, choices: all to tree",
         "apps.viewer.window, choices: arrow to working",
         "choices, rendering.frame: jpeg to webp",

@@ -84,7 +84,7 @@ class Autosave:
         self._version, self._changed_since = document.history.version, None
         try:
             path = self._owned_path()
-            content, _ = scene_text(document.scene, ROOT)
+            content, _ = scene_text(document.scene, ROOT, document.resources.kept_materials)
             saying = {"document": document.path, "time": time.time()}
             with atomic_write(path, below=self._folder) as file:
                 file.write(b'{"autosave": ' + json.dumps(saying).encode("ascii") + b",\n")

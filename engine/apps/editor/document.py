@@ -15,14 +15,18 @@ import numpy as np
 from ...base.files.stamps import FileState
 from ...errors import Engine3DError, FileAccessError, InvalidArgumentError, printable
 from ...io.loaders import load_document
+from ...io.reading.documents import Document
 from ...io.reading.loading import document_of
 from ...io.reading.sources import Source
 from ...io.scenes.scene_loading import scene_from_document
-from ...io.writing.scene_saving import save_scene
+from ...io.writing.scene_saving import save_scene, save_with_materials
+from ...model.motion.periods import common_period
 from ...model.scene.animation import Animator, motions_of
 from ...model.scene.scene import Scene
 from .console import Console
+from .gltf_export import export_gltf
 from .history import Command, History
+from .motion_copies import motions_in
 from .prompt import Prompt
 from .recovery import Recovery, content_of
 from .resource_list import ResourceList
@@ -30,6 +34,8 @@ from .selection import Selection
 
 #: Extension of scene files, which are saved as they were opened.
 SCENE_EXTENSION = ".e3d.json"
+#: Characters of a step that menus show.
+LONGEST_LABEL = 48
 
 
 class SceneDocument:
@@ -120,6 +126,7 @@ class SceneDocument:
             loaded = load_document(name)
             document = cls(scene_from_document(loaded), console=console)
         document.up = loaded.up
+        document._keep_materials(loaded)
         if loaded.scene is not None:
             document.path, document._state = name, state
         console.write("action", f"Open {name}")
@@ -169,10 +176,19 @@ class SceneDocument:
         with console.warnings_noted(), Source(name, data) as source:
             loaded = document_of(source, "e3d", split=True)
             document = cls(scene_from_document(loaded), console=console)
+        document._keep_materials(loaded)
         document.path = copy.document
         document.history.mark_unsaved()
         console.write("action", f"Recover {copy.document or 'a scene without a name'}")
         return document
+
+    def _keep_materials(self, loaded: Document) -> None:
+        """List also those materials of a scene's file that no node uses."""
+        materials = [] if loaded.scene is None else loaded.scene.materials
+        used = {entry.thing for entry in self.resources.entries()}
+        for material in materials:
+            if material not in used:
+                self.resources.keep(material)
 
     @property
     def animator(self) -> Animator:
@@ -188,10 +204,36 @@ class SceneDocument:
         return animator is not None and any(motions_of(animator))
 
     @property
+    def length(self) -> float:
+        """Seconds after which the motion repeats or rests; 0 if nothing moves."""
+        motions = motions_in(self.scene)
+        last = max((float(track.times[-1]) for track in motions.tracks), default=0.0)
+        return max(common_period(motions) or 0.0, last)
+
+    def settle(self) -> None:
+        """Take the time back to its first repetition, so that a key set now is in it."""
+        motions, length = motions_in(self.scene), self.length
+        if not 0.0 < length < self.animator.time:
+            return
+        rests = any(path.end == "stop" for path in motions.paths)
+        rests = rests or not all(track.repeat for track in motions.tracks)
+        self.animator.seek(length if rests else self.animator.time % length)
+
+    @property
     def title(self) -> str:
         """The file's name, with a star if there are unsaved changes."""
         name = "untitled" if self.path is None else printable(os.path.basename(self.path))
         return f"{name}*" if self.is_modified else name
+
+    @property
+    def undo_label(self) -> str:
+        """What undoing does, such as "Undo move 'box'"; "Undo" if there is nothing."""
+        return _labelled("Undo", self.history.last)
+
+    @property
+    def redo_label(self) -> str:
+        """What redoing does, as `undo_label`."""
+        return _labelled("Redo", self.history.next)
 
     def save_would_overwrite(self, path: str | os.PathLike[str] | None = None) -> str | None:
         """Return what saving to a path would overwrite, to ask the user.
@@ -239,13 +281,34 @@ class SceneDocument:
             return False
         try:
             with self.console.warnings_noted():
-                save_scene(self.scene, name)
+                if name.lower().endswith(SCENE_EXTENSION):
+                    save_with_materials(self.scene, name, self.resources.kept_materials)
+                else:
+                    save_scene(self.scene, name)
         except Engine3DError as error:
             self.console.write("error", f"Save: {error}")
             return False
         self.path, self._state = name, FileState(name)
         self.history.mark_saved()
         self.console.write("action", f"Save {name}")
+        return True
+
+    def export(self, path: str | os.PathLike[str]) -> bool:
+        """Write the scene as glTF (``.glb``, ``.gltf``); the document stays that of its own file.
+
+        Returns
+        -------
+        written : bool
+            False if it was not; the console tells why, and what glTF does not hold.
+        """
+        name = os.path.abspath(os.fspath(path))
+        try:
+            with self.console.warnings_noted():
+                export_gltf(self.scene, name)
+        except Engine3DError as error:
+            self.console.write("error", f"Export: {error}")
+            return False
+        self.console.write("action", f"Export {name}")
         return True
 
     def _target(self, path: str | os.PathLike[str] | None) -> str:
@@ -284,3 +347,13 @@ class SceneDocument:
             "e3d": engine3d,
             "np": np,
         }
+
+
+def _labelled(what: str, command: Command | None) -> str:
+    """Return the label of a step to be undone or redone, shortened."""
+    if command is None:
+        return what
+    label = command.label
+    if not label.startswith("Python"):
+        label = label[:1].lower() + label[1:]
+    return f"{what} {label if len(label) <= LONGEST_LABEL else label[: LONGEST_LABEL - 1] + '…'}"

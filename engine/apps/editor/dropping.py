@@ -18,7 +18,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from .history import Command
-from .node_commands import AddNodes, copy_below
+from .node_commands import AddNodes, copy_nodes
 from .value_commands import SetValues
 
 
@@ -59,9 +59,7 @@ def drop_file(
 
     def add(scene: Scene) -> None:
         group = scene.add(name=stem, translation=offset)
-        for node in loaded.nodes:
-            if node.parent is None:
-                copy_below(scene, node, group)
+        copy_nodes(scene, {node: group for node in loaded.nodes if node.parent is None})
 
     return AddNodes(scene, add, f"Add {os.path.basename(name)}")
 

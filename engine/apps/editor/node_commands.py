@@ -6,7 +6,7 @@ Nodes keep their handles and IDs through undo and redo.
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from ...base import linalg
 from ...errors import InvalidArgumentError
@@ -18,6 +18,7 @@ from ...model.scene.placements import Placements
 from ...model.scene.scene import Scene
 from ...model.scene.selection import NodeSelection
 from .history import Command
+from .motion_copies import motions_in, move_alike, put_motions
 from .selection import topmost
 
 
@@ -51,21 +52,25 @@ class AddNodes(Command):
         else:
             for node, parent in self._places:
                 self._scene.restore(node, parent=parent)
+            put_motions(self._scene, self._motions[1])
 
     def _add_first(self) -> None:
-        count = len(self._scene.nodes)
+        count, motions = len(self._scene.nodes), motions_in(self._scene)
         try:
             self._add(self._scene)
         except BaseException:
             for node in topmost(self._scene.nodes[count:]):
                 self._scene.remove(node)
+            put_motions(self._scene, motions)
             raise
+        self._motions = motions, motions_in(self._scene)
         self.nodes = topmost(self._scene.nodes[count:])  # the latest ones are last
         self._places = [(node, node.parent) for node in self.nodes]
 
     def undo(self) -> None:
         for node, _ in reversed(self._places):
             self._scene.remove(node)
+        put_motions(self._scene, self._motions[0])
 
 
 class DeleteNodes(Command):
@@ -91,14 +96,14 @@ class DeleteNodes(Command):
 class DuplicateNodes(AddNodes):
     """Adds copies of nodes beside them, with their subtrees.
 
-    Copies share meshes, and have their own lights and cameras.
+    Copies share meshes, have their own lights and cameras, and move as their originals.
     """
 
     def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
         originals = topmost(nodes)
         super().__init__(
             scene,
-            lambda scene: [copy_below(scene, node, node.parent) for node in originals],
+            lambda scene: copy_nodes(scene, {node: node.parent for node in originals}),
             counted("Duplicate", originals),
         )
 
@@ -277,21 +282,35 @@ def in_world(matrix) -> Callable[[NodeSelection], None]:
     return move
 
 
-def copy_below(scene: Scene, node: Node, parent: Node | None) -> Node:
-    """Add a copy of any scene's node with its subtree; return the copy.
+def copy_nodes(scene: Scene, parents: Mapping[Node, Node | None]) -> tuple[Node, ...]:
+    """Add copies of nodes of any other scene, or of the same one, with their subtrees.
 
-    The copies keep the drawing order of the originals.
+    The copies keep the drawing order of the originals. They move and deform alike.
+
+    Parameters
+    ----------
+    scene : Scene
+    parents : dict of Node to Node or None
+        The parents of the copies by their originals, none of which is below another.
+
+    Returns
+    -------
+    copies : tuple of Node
+        Of the given nodes, in their order.
     """
-    nodes = with_below(node)
+    subtrees = [with_below(node) for node in parents]
+    nodes = [node for subtree in subtrees for node in subtree]
     made = {
         original: _copied(scene, original)
-        for original in sorted(nodes, key=lambda original: original.id)
+        for subtree in subtrees
+        for original in sorted(subtree, key=lambda original: original.id)
     }
-    for original in nodes[1:]:  # parents first, siblings in their order
-        made[original].reparent(made[original.parent])
-    made[node].reparent(parent)
+    for original in nodes:  # parents first, siblings in their order
+        is_top = original in parents
+        made[original].reparent(parents[original] if is_top else made[original.parent])
     _bend_alike(made)
-    return made[node]
+    move_alike(made)
+    return tuple(made[node] for node in parents)
 
 
 def _bend_alike(made: dict[Node, Node]) -> None:

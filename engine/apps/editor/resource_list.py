@@ -66,6 +66,11 @@ class ResourceList:
         """Keep a resource in the list even if no node uses it."""
         self._kept[thing] = None
 
+    @property
+    def kept_materials(self) -> tuple[Material, ...]:
+        """The kept materials: files hold them even if no node uses them."""
+        return tuple(thing for thing in self._kept if isinstance(thing, Material))
+
     def drop(self, thing: Thing) -> None:
         """Remove a resource from the list when no node uses it."""
         self._kept.pop(thing, None)

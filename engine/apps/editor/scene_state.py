@@ -47,7 +47,7 @@ class SceneState:
         self._values = {name: kept(getattr(scene, name)) for name in _SCENE_VALUES}
         animator = scene.animator
         # An animator without motions is equivalent to none.
-        self._motions: Motions = ((), ()) if animator is None else motions_of(animator)
+        self._motions = Motions() if animator is None else motions_of(animator)
         self._animator = animator if any(self._motions) else None
         self._placements = Placements(scene, self.nodes)
         slots = scene.data.slots_of(self.nodes)

@@ -11,7 +11,7 @@ import base64
 import json
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import fields
 from typing import Any
 
@@ -86,17 +86,33 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     if writer is not None:
         write(scene, name, writer)
         return
-    content, told = scene_text(scene, os.path.dirname(name) or ".")
-    with atomic_write(name) as file:
+    save_with_materials(scene, name)
+
+
+def save_with_materials(scene: Scene, path: str, materials: Iterable[Material] = ()) -> None:
+    """Write a scene as engine3d's JSON, with further materials that no node uses yet."""
+    content, told = scene_text(scene, os.path.dirname(path) or ".", materials)
+    with atomic_write(path) as file:
         file.write(content)
     for message in told:
-        warn(located(message, name))
+        warn(located(message, path))
 
 
-def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
-    """Return a scene's file for a folder, and a line for each loss."""
+def scene_text(
+    scene: Scene, folder: str, materials: Iterable[Material] = ()
+) -> tuple[bytes, list[str]]:
+    """Return a scene's file for a folder, and a line for each loss.
+
+    Parameters
+    ----------
+    scene : Scene
+    folder : str
+    materials : iterable of Material
+        Those to be in the file even if no node uses them.
+    """
     writing = _Writing(folder)
     writing.nodes(scene)
+    writing.materials(materials)
     writing.told += _lost_motion(scene)
     if scene.robots:
         writing.told.append("scenes of engine3d hold no joints: links stay where they stand")
@@ -162,7 +178,8 @@ class _Writing:
         nodes = scene.nodes
         numbers = {node: number for number, node in enumerate(nodes)}
         placements = Placements(scene, nodes)
-        motions = motion_entries(scene.animator)
+        motions, lost = motion_entries(scene.animator, numbers)
+        self.told += lost
         for row, node in enumerate(nodes):
             entry: dict[str, Any] = {"name": node.name} if node.name else {}
             if (number := self._object(node)) is not None:
@@ -181,6 +198,11 @@ class _Writing:
             if children := node.children:
                 entry["children"] = [numbers[child] for child in children]
             self.lists["nodes"].append(entry)
+
+    def materials(self, materials: Iterable[Material]) -> None:
+        """Write materials, unless objects have them."""
+        for material in materials:
+            self._number("materials", material, self._material)
 
     def values(self, scene: Scene) -> dict[str, Any]:
         """Write the scene's own values; those of environments only if not default."""

@@ -1,4 +1,4 @@
-"""Simple animation of nodes, spins and keyframes, as functions of time.
+"""Simple animation of nodes, spins, keyframes, paths and orbits, as functions of time.
 
 In: nodes, their motions, and the time. Out: their poses. A pose depends only on the time, never on
 earlier frames, with the same bits on every machine. All spins are evaluated together.
@@ -6,20 +6,22 @@ earlier frames, with the same bits on every machine. All spins are evaluated tog
 
 from __future__ import annotations
 
-import copy
 import math
-from collections.abc import Callable, Iterable
-from typing import Any, TypeAlias, TypeVar, cast
-from weakref import ref
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base import linalg
-from ...base.numbers import floats, real
+from ...base.numbers import floats, real, shown
 from ...base.validation import finite, flag, frozen_floats, vector3
+from ...choices import Forward, PathEnd
 from ...errors import InvalidArgumentError
 from ..motion.interpolation import slerp
+from ..motion.node_motion import NodeMotion
+from ..motion.orbits import Orbit, check_center, in_order
+from ..motion.paths import Path
 from .clock import Clock
 from .nodes import Node
 from .scene import Scene
@@ -28,7 +30,7 @@ _SLOWEST = 6  # far nodes move at least every 2**6 updates
 
 
 class Animator(Clock):
-    """Moves nodes of a scene by spins and keyframes.
+    """Moves nodes of a scene by spins, keyframes, paths and orbits.
 
     Parameters
     ----------
@@ -55,8 +57,7 @@ class Animator(Clock):
             raise InvalidArgumentError("full_rate_distance must be greater than 0")
         self._full_rate_distance = real(full_rate_distance)
         self._updates = 0
-        self._spins: list[Spin] = []
-        self._tracks: list[Track] = []
+        self._motions = Motions()
         self._moving: _Moving | None = None
 
     @property
@@ -90,7 +91,7 @@ class Animator(Clock):
         """
         given: dict[str, Any] = {"axis": axis, "period": period, "phase": phase}
         nodes = self._scene.select(nodes if isinstance(nodes, Iterable) else [nodes]).nodes
-        self._add([Spin(node, node.rotation, **given) for node in nodes], [])
+        self._add(Motions(spins=tuple(Spin(node, node.rotation, **given) for node in nodes)))
 
     def track(
         self,
@@ -121,20 +122,95 @@ class Animator(Clock):
         InvalidArgumentError
         """
         self._scene.select([node])
-        self._add([], [Track(node, times, translations, rotations, scales, repeat)])
+        self._add(Motions(tracks=(Track(node, times, translations, rotations, scales, repeat),)))
+
+    def follow(
+        self,
+        node: Node,
+        points: ArrayLike,
+        *,
+        period: float,
+        phase: float = 0.0,
+        end: PathEnd = "close",
+        smooth: bool = True,
+        forward: Forward | None = None,
+    ) -> None:
+        """Move a node along a path through points, at a constant rate.
+
+        Parameters
+        ----------
+        node : Node
+        points : (K, 3) float
+            At least two, in the space of the node's parent.
+        period : float
+            Seconds for the whole way; for the way there and back if it returns.
+        phase : float
+            Where it is at time 0, in ways.
+        end : {"close", "return", "restart", "stop"}
+            After the last point: go on to the first one, go back, jump to the first one, or stay.
+        smooth : bool
+            Round the corners, still through all points.
+        forward : {"+X", "-X", "+Z", "-Z"}, optional
+            The axis of the node that faces where it goes; it keeps its rotation if left out, and
+            where the path goes straight up or down.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        self._scene.select([node])
+        self._add(Motions(paths=(Path(node, points, period, phase, end, smooth, forward),)))
+
+    def orbit(
+        self,
+        node: Node,
+        about: Node | None = None,
+        *,
+        radius: float,
+        period: float,
+        axis: ArrayLike = (0, 1, 0),
+        phase: float = 0.0,
+    ) -> None:
+        """Move a node around another one on a circle; it keeps its rotation.
+
+        Parameters
+        ----------
+        node : Node
+        about : Node, optional
+            The node in the middle, wherever it moves; by default the origin of the parent. One
+            that is removed leaves its followers where they are.
+        radius : float
+            World units; those of the parent around its origin.
+        period : float
+            Seconds per turn; negative reverses the direction.
+        axis : (3,) float
+            Axis of the circle in the world, or in the parent's space around its origin; the turn is
+            counter-clockwise seen from its tip.
+        phase : float
+            Place at time 0, in turns.
+
+        Raises
+        ------
+        InvalidArgumentError
+            Also if the node in the middle moves with the node.
+        """
+        self._scene.select([node])
+        if not (about is None or (isinstance(about, Node) and about.scene is self._scene)):
+            raise InvalidArgumentError(f"about must be a node of this scene, not {shown(about)}")
+        made = Orbit(node, about, radius, axis, period, phase)
+        check_center(made, self._motions.orbits)
+        self._add(Motions(orbits=(made,)))
 
     def _copied_to(self, scene: Scene, copy_of: Callable[[Node], Node]) -> Animator:
         """Return an animator of a copied scene; nodes that were removed are left out."""
         made = Animator(scene, full_rate_distance=self.full_rate_distance)
-        made._spins, made._tracks = _copied(self._spins, copy_of), _copied(self._tracks, copy_of)
+        made._motions = copied_motions(self._motions, copy_of)
         made.time, made.paused, made._updates = self.time, self.paused, self._updates
         return made
 
-    def _add(self, spins: list[Spin], tracks: list[Track]) -> None:
+    def _add(self, motions: Motions) -> None:
         """Add motions to those of the animator."""
-        self._spins += spins
-        self._tracks += tracks
-        self._moving = None
+        set_motions(self, self._motions.joined(motions))
 
     def advance(self, seconds: float, eye: ArrayLike | None = None) -> None:
         """Advance the time and move the nodes, unless paused.
@@ -151,15 +227,22 @@ class Animator(Clock):
 
     def _move(self, eye: np.ndarray | None = None) -> None:
         if self._moving is None or self._moving.removals != self._scene.data.removals:
-            # If only the animator remembers a spin, its node is gone for good.
-            self._spins = [spin for spin in self._spins if spin.node is not None]
-            self._tracks = [track for track in self._tracks if track.node is not None]
-            self._moving = _Moving(self._scene, self._spins, self._tracks)
+            # If only the animator remembers a motion, its node is gone for good.
+            self._motions = self._motions.kept(lambda motion: motion.node is not None)
+            self._moving = _Moving(self._scene, self._motions)
         moving = self._moving
         moving.spins.move(self.time, self._due(moving.spins.rows, eye))
-        rows = self._scene.data.slots_of(map(_node_of, moving.tracks))
+        self._move_each(moving.tracks, eye)
+        self._move_each(moving.paths, eye)
+        self._move_each(in_order(moving.orbits), eye)
+
+    def _move_each(self, motions: Sequence[Track | Path | Orbit], eye: np.ndarray | None) -> None:
+        """Move the nodes of some motions, one after the other."""
+        if not motions:
+            return
+        rows = self._scene.data.slots_of(map(_node_of, motions))
         for number in self._due(rows, eye).tolist():
-            moving.tracks[number].move(self.time)
+            motions[number].move(self.time)
 
     def _due(self, rows: np.ndarray, eye: np.ndarray | None) -> np.ndarray:
         """Return the indices of those slots whose nodes move this time."""
@@ -174,57 +257,81 @@ class Animator(Clock):
         return np.flatnonzero((self._updates + rows) % steps == 0)
 
 
-Motions: TypeAlias = "tuple[tuple[Spin, ...], tuple[Track, ...]]"
+class Motions(NamedTuple):
+    """The motions of an animator, in the order in which those of a kind were added.
+
+    Attributes
+    ----------
+    spins, tracks, paths, orbits : tuple
+    """
+
+    spins: tuple[Spin, ...] = ()
+    tracks: tuple[Track, ...] = ()
+    paths: tuple[Path, ...] = ()
+    orbits: tuple[Orbit, ...] = ()
+
+    def joined(self, more: Motions) -> Motions:
+        """Return these and other motions."""
+        return Motions(
+            self.spins + more.spins,
+            self.tracks + more.tracks,
+            self.paths + more.paths,
+            self.orbits + more.orbits,
+        )
+
+    def kept(self, keeps: Callable[[NodeMotion], bool]) -> Motions:
+        """Return those motions for which a function is true."""
+        return Motions(
+            tuple(filter(keeps, self.spins)),
+            tuple(filter(keeps, self.tracks)),
+            tuple(filter(keeps, self.paths)),
+            tuple(filter(keeps, self.orbits)),
+        )
+
+    def of(self, node: Node) -> tuple[NodeMotion, ...]:
+        """Return the motions of a node."""
+        return tuple(motion for kind in self for motion in kind if motion.node is node)
+
+
+#: The names of the kinds of motions.
+MOTION_KINDS = ("spins", "tracks", "paths", "orbits")
 
 
 def motions_of(animator: Animator) -> Motions:
-    """Return all spins and keyframes, including those of nodes currently out of the scene."""
-    return tuple(animator._spins), tuple(animator._tracks)
+    """Return all motions, including those of nodes currently out of the scene."""
+    return animator._motions
 
 
 def set_motions(animator: Animator, motions: Motions) -> None:
     """Replace all motions of an animator."""
-    spins, tracks = motions
-    animator._spins, animator._tracks = list(spins), list(tracks)
+    animator._motions = Motions(*motions)
     animator._moving = None
 
 
-class _Described:
-    """The motion of one node, which may have been removed.
-
-    A removed node may come back (`Scene.restore`), so its motion is kept as long as the node
-    exists.
-    """
-
-    def __init__(self, node: Node) -> None:
-        self._node = ref(node)
-
-    @property
-    def node(self) -> Node | None:
-        return self._node()
+Motion = TypeVar("Motion", bound=NodeMotion)
 
 
-Motion = TypeVar("Motion", bound=_Described)
-
-
-def _copied(motions: Iterable[Motion], copy_of: Callable[[Node], Node]) -> list[Motion]:
+def copied_motions(motions: Motions, copy_of: Callable[[Node], Node]) -> Motions:
     """Return motions for the copies of their nodes."""
-    made = []
-    for motion in motions:
-        node = motion.node
-        if node is not None and copy_of(node) is not node:
-            copied = copy.copy(motion)
-            copied._node = ref(copy_of(node))
-            made.append(copied)
-    return made
+    return Motions(
+        _copied(motions.spins, copy_of),
+        _copied(motions.tracks, copy_of),
+        _copied(motions.paths, copy_of),
+        _copied(motions.orbits, copy_of),
+    )
 
 
-def _node_of(described: _Described) -> Node:
+def _copied(motions: Iterable[Motion], copy_of: Callable[[Node], Node]) -> tuple[Motion, ...]:
+    made = (motion.copied(copy_of) for motion in motions)
+    return tuple(motion for motion in made if motion is not None)
+
+
+def _node_of(motion: NodeMotion) -> Node:
     """Return the node of a motion; the scene holds it."""
-    return cast("Node", described.node)
+    return cast("Node", motion.node)
 
 
-class Spin(_Described):
+class Spin(NodeMotion):
     """A rotation of one node at a constant rate.
 
     Attributes
@@ -249,21 +356,18 @@ class Spin(_Described):
 class _Moving:
     """The motions whose nodes are in the scene."""
 
-    def __init__(self, scene: Scene, spins: list[Spin], tracks: list[Track]) -> None:
+    def __init__(self, scene: Scene, motions: Motions) -> None:
         self.removals = scene.data.removals  # also grows when a node comes back
-        self.spins = _Spins(scene, [spin for spin in spins if _is_in(scene, spin)])
-        self.tracks = [track for track in tracks if _is_in(scene, track)]
-
-
-def _is_in(scene: Scene, described: _Described) -> bool:
-    node = described.node
-    return node is not None and node.scene is scene
+        spins, self.tracks, self.paths, self.orbits = motions.kept(
+            lambda motion: motion.node is not None and motion.node.scene is scene
+        )
+        self.spins = _Spins(scene, spins)
 
 
 class _Spins:
     """All spins of an animator as arrays."""
 
-    def __init__(self, scene: Scene, spins: list[Spin]) -> None:
+    def __init__(self, scene: Scene, spins: Sequence[Spin]) -> None:
         self.rows = scene.data.slots_of(map(_node_of, spins))
         self._arrays = scene.data.arrays
         self._axes = np.array([spin.direction for spin in spins]).reshape(-1, 3)
@@ -285,7 +389,7 @@ class _Spins:
         self._arrays.set_many_parts(self.rows[due], rotations, None)
 
 
-class Track(_Described):
+class Track(NodeMotion):
     """Keyframes of one node: arrays as given to `Animator.track`, or None."""
 
     def __init__(

@@ -126,7 +126,7 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
     @animator.setter
     def animator(self, value: Animator | None) -> None:
         # Only an Animator has motions; its module imports this one.
-        fits = value is None or (hasattr(value, "_spins") and value._scene is self)
+        fits = value is None or (hasattr(value, "_motions") and value._scene is self)
         if not fits:
             raise InvalidArgumentError("animator must be an Animator of this scene, or None")
         self._animator = value

@@ -24,9 +24,12 @@ from .hierarchy_panel import HierarchyPanel
 from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
 from .keys_window import KeysWindow
+from .materials.materials_panel import MaterialsPanel
 from .menus import draw_menus, entries, press_keys
+from .motion.timeline_panel import TimelinePanel
 from .panel_layout import load_layout, place_panels, save_layout
 from .properties_panel import PropertiesPanel
+from .render_dialog import RenderDialog
 from .resources_panel import ResourcesPanel
 from .scene_panel import ScenePanel
 from .start_chooser import StartChooser
@@ -94,15 +97,22 @@ class EditorWindow:
         self._files = Files(self.workspace, self._painter)
         self._resources = ResourcesPanel(self.workspace, self._painter)
         hierarchy = HierarchyPanel(self.workspace)
+        properties = PropertiesPanel(self.workspace, self._files)
+        self._materials = MaterialsPanel(
+            self.workspace, self._painter, properties.draw_material_values
+        )
         self._panels = {
             "Hierarchy": hierarchy,
             "Scene": self._scene,
-            "Properties": PropertiesPanel(self.workspace, self._files),
+            "Properties": properties,
             "Resources": self._resources,
-            "Console": ConsolePanel(self.workspace),
+            "Materials": self._materials,
+            "Timeline": TimelinePanel(self.workspace),
+            "Console": ConsolePanel(self.workspace),  # the last one is in front of its dock
         }
         self._files.offer_recovery()
-        self._entries = entries(self.workspace, self._files, hierarchy)
+        self._rendering = RenderDialog(self.workspace, self._files)
+        self._entries = entries(self.workspace, self._files, hierarchy, self._rendering)
         self._starts = StartChooser(self.workspace, self._files)
         self._keys = KeysWindow(self.workspace, self._entries)
         self.workspace.panels.offers_start = not path
@@ -145,6 +155,8 @@ class EditorWindow:
         happened, self._late = of_one_picture(waiting, holds)
         for event in happened:
             self._take_safely(event)
+        if patience and not happened and self._scene.is_outdated:
+            self._pictures_due = 1
         if self.workspace.lines_to_run:
             self._run_lines()
         self.workspace.tick()
@@ -229,9 +241,10 @@ class EditorWindow:
 
     def _is_unfinished(self) -> bool:
         """Return whether the next picture will differ without any event."""
-        if self._files.is_waiting:
+        if self._files.is_waiting or self._rendering.is_waiting:
             time.sleep(WAITING_SECONDS)
-        waits = self._resources.is_waiting or self._files.is_waiting
+        panels = self._resources, self._files, self._materials, self._rendering
+        waits = any(panel.is_waiting for panel in panels)
         moves = self._scene.is_flying or self.workspace.is_moving
         return waits or moves or bool(self._late) or self.workspace.panels.pictures_to_focus > 0
 
@@ -240,7 +253,7 @@ class EditorWindow:
 
     def _lay_out(self) -> None:
         workspace = self.workspace
-        self._guarded(lambda: draw_menus(workspace, self._entries))
+        self._guarded(lambda: draw_menus(workspace, self._entries, self._files))
         flags = imgui.DockNodeFlags_.passthru_central_node
         space = imgui.dock_space_over_viewport(flags=flags)
         if workspace.panels.wants_usual_places:
@@ -253,6 +266,7 @@ class EditorWindow:
         self._guarded(self._starts.draw)
         self._guarded(self._keys.draw)
         self._guarded(self._files.draw)
+        self._guarded(self._rendering.draw)
         self._guarded(lambda: press_keys(self._entries))
 
     def _guarded(self, lay_out: Callable[[], object]) -> None:
@@ -276,6 +290,7 @@ class EditorWindow:
 
     def close(self) -> None:
         """Close the window; may be called twice."""
+        self._rendering.close()
         self._scene.close()
         if self._context is not None:
             imgui.destroy_context(self._context)

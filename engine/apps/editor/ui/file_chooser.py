@@ -48,6 +48,7 @@ class FileDialog:
         self._is_new = False
         self._kinds: dict[str, tuple[str, ...]] = {}
         self._kind = ""
+        self._others: tuple[str, ...] = ()
         self._answer: Callable[[str], object] = print
         self._listing = Listing("", (), "")
         self._folder = os.getcwd()
@@ -61,6 +62,7 @@ class FileDialog:
         answer: Callable[[str], object],
         *,
         name: str | None = None,
+        others: tuple[str, ...] = (),
     ) -> None:
         """Open the dialog.
 
@@ -73,10 +75,13 @@ class FileDialog:
             Given the path.
         name : str, optional
             What a new file may be called; without it only files that are there can be chosen.
+        others : tuple of str
+            Extensions of a new file that are kept as entered; all others get the first of a kind.
         """
         self._title, self._kinds, self._answer = title, kinds, answer
         self._kind = next(iter(kinds))
         self._is_new, self._name = name is not None, name or ""
+        self._others = others
         self._opens, self._focuses = True, self._is_new
         self._go(self._folder)
 
@@ -235,7 +240,8 @@ class FileDialog:
     def _finish(self) -> None:
         path = os.path.join(self._folder, self._name)
         extensions = self._kinds[self._kind]
-        if self._is_new and extensions and not self._name.lower().endswith(extensions):
+        known = (*extensions, *self._others)
+        if self._is_new and extensions and not self._name.lower().endswith(known):
             path += extensions[0]
         if self._is_new or os.path.isfile(path):
             self._close()

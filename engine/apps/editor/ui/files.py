@@ -18,6 +18,7 @@ from ....model.scene.nodes import Node
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..autosave import forget, left_behind
 from ..document import SCENE_EXTENSION
+from ..gltf_export import GLTF_EXTENSIONS
 from ..recovery import Recovery
 from .file_chooser import FileDialog
 from .workspace import Workspace
@@ -87,15 +88,49 @@ class Files:
             self._save_to(None, then)
 
     def save_as(self, then: Callable[[], object] = lambda: None) -> None:
-        """Ask where to save the scene."""
+        """Ask where to save the scene; a name of glTF is asked about."""
         path = self._workspace.document.path
         name = "scene.e3d.json" if path is None else os.path.basename(path)
         self._dialog.ask(
             "Save the scene",
             {"Scenes": _SCENES},
-            lambda chosen: self._save_to(chosen, then),
+            lambda chosen: self._save_or_export(chosen, then),
             name=name,
+            others=GLTF_EXTENSIONS,
         )
+
+    def export(self) -> None:
+        """Ask where to write the scene as glTF."""
+        path = self._workspace.document.path
+        stem = "scene" if path is None else os.path.basename(path).removesuffix(SCENE_EXTENSION)
+        kinds = {"glTF": GLTF_EXTENSIONS}
+        document = self._workspace.document
+        self.ask_for_new("Export as glTF", kinds, f"{stem}.glb", document.export)
+
+    def ask_for_new(
+        self,
+        title: str,
+        kinds: dict[str, tuple[str, ...]],
+        name: str,
+        answer: Callable[[str], object],
+    ) -> None:
+        """Ask for a file to write, and before one that is there already is overwritten.
+
+        Parameters
+        ----------
+        title : str
+        kinds : dict of str to tuple of str
+            Extensions by what the dialog calls them.
+        name : str
+            What it may be called.
+        answer : callable
+            Given the path.
+        """
+        self._dialog.ask(title, kinds, lambda path: self._unless_there(path, answer), name=name)
+
+    def open_recent(self, path: str) -> None:
+        """Open a file, after saving or discarding the old scene."""
+        self._unless_lost(lambda: self._workspace.open(path))
 
     def exit(self) -> None:
         """Close the editor, after saving or discarding the scene."""
@@ -131,6 +166,32 @@ class Files:
         self._ask(
             f"{document.title.rstrip('*')} is not saved.",
             {"Save": lambda: self.save(act), "Discard": act, "Cancel": lambda: None},
+        )
+
+    def _unless_there(self, path: str, answer: Callable[[str], object]) -> None:
+        if not os.path.lexists(path):
+            answer(path)
+            return
+        question = f"{printable(path)} is there already."
+        self._ask(question, {"Overwrite": lambda: answer(path), "Cancel": lambda: None})
+
+    def _save_or_export(self, path: str, then: Callable[[], object]) -> None:
+        """Save to a path; ask what is meant by a name of glTF."""
+        if not path.lower().endswith(GLTF_EXTENSIONS):
+            self._save_to(path, then)
+            return
+        stem = os.path.splitext(path)[0]
+        scene = stem + SCENE_EXTENSION
+        export = f"Export as {printable(os.path.basename(path))}"
+        save = f"Save as {printable(os.path.basename(scene))}"
+        document = self._workspace.document
+        self._ask(
+            "The editor saves scenes with all that they hold as .e3d.json. glTF holds less.",
+            {
+                save: lambda: self._save_to(scene, then),
+                export: lambda: self._unless_there(path, document.export),
+                "Cancel": lambda: None,
+            },
         )
 
     def _save_to(self, path: str | None, then: Callable[[], object]) -> None:

@@ -12,6 +12,8 @@ from ..hierarchy import Row
 from ..new_things.adding import GROUPS
 from ..node_commands import Reparent
 from ..value_commands import SetValues
+from . import clipboard_actions
+from .materials import material_actions
 from .panel_layout import begin_panel
 from .selection_actions import add, delete, duplicate, group
 from .workspace import Workspace
@@ -187,6 +189,12 @@ class HierarchyPanel:
         workspace = self._workspace
         if imgui.menu_item_simple("Rename", "F2"):
             self.rename(node)
+        if imgui.menu_item_simple("Cut", "Ctrl+X"):
+            clipboard_actions.cut(workspace)
+        if imgui.menu_item_simple("Copy", "Ctrl+C"):
+            clipboard_actions.copy(workspace)
+        if imgui.menu_item_simple("Paste", "Ctrl+V"):
+            clipboard_actions.paste(workspace)
         if imgui.menu_item_simple("Duplicate", "Ctrl+D"):
             duplicate(workspace)
         if imgui.menu_item_simple("Group", "Ctrl+G"):
@@ -210,6 +218,7 @@ class HierarchyPanel:
     def _accept_drop(self, parent: Node | None) -> None:
         if not imgui.begin_drag_drop_target():
             return
+        material_actions.accept(self._workspace, parent)
         payload = imgui.accept_drag_drop_payload_py_id(_PAYLOAD)
         if payload is not None:
             scene, selection = self._workspace.scene, self._workspace.document.selection

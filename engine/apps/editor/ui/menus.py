@@ -5,17 +5,26 @@ In: the workspace. Out: the changed workspace. Shortcuts are those on which Blen
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
 from imgui_bundle import imgui
 
+from ....errors import printable
+from . import clipboard_actions as clipboard
 from . import selection_actions as actions
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
+from .materials.material_actions import add_to_selected
+from .motion import motion_actions as motion
+from .render_dialog import RenderDialog
 from .view.standard_views import STANDARD_VIEWS
 from .workspace import PANELS, Workspace
+
+#: The entry below which recent files are.
+OPEN = "Open ..."
 
 
 class Entry(NamedTuple):
@@ -26,15 +35,23 @@ class Entry(NamedTuple):
     menu, label, keys : str
         ``keys`` as menus show them: "Ctrl+Shift+Z"; a letter alone counts where nobody types.
     act : callable
+    is_enabled : callable
+        Whether there is something to do.
+    says : callable, optional
+        The label as it is shown now.
     """
 
     menu: str
     label: str
     keys: str
     act: Callable[[], object]
+    is_enabled: Callable[[], bool] = lambda: True
+    says: Callable[[], str] | None = None
 
 
-def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> list[Entry]:
+def entries(
+    workspace: Workspace, files: Files, hierarchy: HierarchyPanel, rendering: RenderDialog
+) -> list[Entry]:
     """Return all entries of all menus."""
 
     def rename():
@@ -47,26 +64,36 @@ def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> li
     def show_keys():
         workspace.panels.shows_keys = not workspace.panels.shows_keys
 
+    def is_any_selected():
+        return bool(workspace.document.selection.nodes)
+
+    def of_selection(label, keys, act):
+        return Entry("Edit", label, keys, lambda: act(workspace), is_any_selected)
+
     def choose(tool):
         return lambda: setattr(workspace.tools, "chosen", tool)
 
     return [
         Entry("File", "New", "Ctrl+N", files.new),
-        Entry("File", "Open ...", "Ctrl+O", files.open),
+        Entry("File", OPEN, "Ctrl+O", files.open),
         Entry("File", "Add a file ...", "Ctrl+I", files.add),
         Entry("File", "Save", "Ctrl+S", files.save),
         Entry("File", "Save as ...", "Ctrl+Shift+S", files.save_as),
+        Entry("File", "Export as glTF ...", "Ctrl+E", files.export),
+        Entry("File", "Render ...", "F12", rendering.open),
         Entry("File", "Exit", "Ctrl+Q", files.exit),
-        Entry("Edit", "Undo", "Ctrl+Z", workspace.undo),
-        Entry("Edit", "Redo", "Ctrl+Shift+Z", workspace.redo),
-        Entry("Edit", "Rename", "F2", rename),
-        Entry("Edit", "Duplicate", "Ctrl+D", lambda: actions.duplicate(workspace)),
-        Entry("Edit", "Group", "Ctrl+G", lambda: actions.group(workspace)),
-        Entry("Edit", "Delete", "Delete", lambda: actions.delete(workspace)),
-        Entry("Edit", "Put on the ground", "End", lambda: actions.put_on_ground(workspace)),
-        Entry("Edit", "Hide or show", "H", lambda: actions.toggle_visible(workspace)),
+        *_history_entries(workspace),
+        Entry("Edit", "Cut", "Ctrl+X", lambda: clipboard.cut(workspace), is_any_selected),
+        Entry("Edit", "Copy", "Ctrl+C", lambda: clipboard.copy(workspace), is_any_selected),
+        Entry("Edit", "Paste", "Ctrl+V", lambda: clipboard.paste(workspace)),
+        Entry("Edit", "Rename", "F2", rename, is_any_selected),
+        of_selection("Duplicate", "Ctrl+D", actions.duplicate),
+        of_selection("Group", "Ctrl+G", actions.group),
+        of_selection("Delete", "Delete", actions.delete),
+        of_selection("Put on the ground", "End", actions.put_on_ground),
+        of_selection("Hide or show", "H", actions.toggle_visible),
         Entry("Edit", "Select all", "Ctrl+A", lambda: actions.select_all(workspace)),
-        Entry("View", "Frame the selection", "F", frame_selected),
+        Entry("View", "Frame the selection", "F", frame_selected, is_any_selected),
         Entry("View", "Frame all", "Home", lambda: workspace.frame(())),
         *(
             Entry("View", name, key, partial(workspace.look_from, name))
@@ -75,37 +102,106 @@ def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> li
         Entry("View", "Orthographic or perspective", "5", workspace.toggle_orthographic),
         Entry("View", "Look through a camera", "0", workspace.look_through),
         Entry("View", "Play or pause", "Space", workspace.play_or_pause),
+        Entry("Edit", "New material", "Ctrl+M", lambda: add_to_selected(workspace)),
         Entry("Tools", "Select", "Q", choose("select")),
         Entry("Tools", "Move", "W", choose("move")),
         Entry("Tools", "Rotate", "E", choose("rotate")),
         Entry("Tools", "Scale", "R", choose("scale")),
+        *_motion_entries(workspace, is_any_selected),
         Entry("Help", "Keys and mouse", "F1", show_keys),
     ]
 
 
-def draw_menus(workspace: Workspace, listed: list[Entry]) -> None:
+def _history_entries(workspace: Workspace) -> list[Entry]:
+    """Return the entries that undo and redo, which say what."""
+
+    def is_any(which: str):
+        return lambda: getattr(workspace.document.history, which) is not None
+
+    def says(which: str):
+        return lambda: getattr(workspace.document, which)
+
+    return [
+        Entry("Edit", "Undo", "Ctrl+Z", workspace.undo, is_any("last"), says("undo_label")),
+        Entry("Edit", "Redo", "Ctrl+Shift+Z", workspace.redo, is_any("next"), says("redo_label")),
+    ]
+
+
+def _motion_entries(workspace: Workspace, is_any_selected: Callable[[], bool]) -> list[Entry]:
+    """Return the entries of what moves."""
+
+    def moves():
+        return workspace.document.moves
+
+    def to_key(step):
+        return lambda: motion.go_to_key(workspace, step)
+
+    def key(label, keys, act):
+        return Entry("Motion", label, keys, lambda: act(workspace), is_any_selected)
+
+    return [
+        key("Spin", "", motion.spin),
+        key("Orbit", "", motion.orbit),
+        key("Path", "", motion.path),
+        key("Set a key", "K", motion.set_key),
+        key("Delete the key", "Shift+K", motion.delete_key),
+        Entry("Motion", "To the key before", "J", to_key(-1), moves),
+        Entry("Motion", "To the next key", "L", to_key(1), moves),
+        Entry("Motion", "To time 0", "Shift+Home", workspace.rewind, moves),
+    ]
+
+
+def draw_menus(workspace: Workspace, listed: list[Entry], files: Files) -> None:
     """Lay the menu bar out."""
     if not imgui.begin_main_menu_bar():
         return
     menus = list(dict.fromkeys(entry.menu for entry in listed))
     for menu in menus[:-1]:
-        _draw_menu(menu, listed)
+        _draw_menu(menu, listed, workspace, files)
     if imgui.begin_menu("Add"):
         draw_add_menu(workspace)
         imgui.end_menu()
     if imgui.begin_menu("Window"):
         _draw_window_menu(workspace)
         imgui.end_menu()
-    _draw_menu(menus[-1], listed)  # Help stands last
+    _draw_menu(menus[-1], listed, workspace, files)  # Help stands last
     imgui.end_main_menu_bar()
 
 
-def _draw_menu(menu: str, listed: list[Entry]) -> None:
-    if imgui.begin_menu(menu):
-        for entry in listed:
-            if entry.menu == menu and imgui.menu_item_simple(entry.label, entry.keys):
-                entry.act()
-        imgui.end_menu()
+def _draw_menu(menu: str, listed: list[Entry], workspace: Workspace, files: Files) -> None:
+    if not imgui.begin_menu(menu):
+        return
+    for entry in listed:
+        if entry.menu != menu:
+            continue
+        if _draw_entry(entry):
+            entry.act()
+        if entry.label == OPEN:
+            _draw_recent(workspace, files)
+    imgui.end_menu()
+
+
+def _draw_recent(workspace: Workspace, files: Files) -> None:
+    """Lay out the menu of files that were opened lately."""
+    if not imgui.begin_menu("Open recent"):
+        return
+    paths = workspace.recent.paths()
+    if not paths:
+        imgui.text_disabled("none yet")
+    for path in paths:
+        if imgui.menu_item_simple(f"{printable(os.path.basename(path))}###{path}"):
+            files.open_recent(path)
+        imgui.set_item_tooltip(printable(path))
+    imgui.separator()
+    if imgui.menu_item_simple("Forget them", None, False, bool(paths)):
+        workspace.recent.clear()
+    imgui.end_menu()
+
+
+def _draw_entry(entry: Entry) -> bool:
+    """Lay out a line of a menu; return whether it was chosen."""
+    label = entry.label if entry.says is None else f"{entry.says()}###{entry.label}"
+    return imgui.menu_item_simple(label, entry.keys, False, entry.is_enabled())
 
 
 def _draw_window_menu(workspace: Workspace) -> None:
@@ -126,12 +222,14 @@ def press_keys(listed: list[Entry]) -> None:
     if io.want_text_input or popup or imgui.is_mouse_down(1):
         return
     for entry in listed:
+        if not entry.keys:
+            continue
         # Space activates the item that keyboard navigation has chosen
         if entry.keys == "Space" and io.nav_visible:
             continue
         *modifiers, key = entry.keys.split("+")
         held = io.key_ctrl == ("Ctrl" in modifiers) and io.key_shift == ("Shift" in modifiers)
-        if held and not io.key_alt and _is_pressed(key):
+        if held and not io.key_alt and _is_pressed(key) and entry.is_enabled():
             entry.act()
 
 

@@ -137,8 +137,10 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
         "Hierarchy": left,
         "Scene": middle,
         "Properties": right,
-        "Console": below,
         "Resources": below,
+        "Materials": below,
+        "Timeline": below,
+        "Console": below,
     }
     for name, place in places.items():
         builder.dock_builder_dock_window(name, place)

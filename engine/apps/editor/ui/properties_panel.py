@@ -11,11 +11,13 @@ from collections.abc import Sequence
 from imgui_bundle import imgui
 
 from ....model.geometry.mesh import Mesh
+from ....model.materials.material import Material
 from ....model.scene.cameras import Camera
 from ....model.scene.instances import InstancedMesh
 from ....model.scene.lights import LIGHTS
 from ....model.scene.nodes import Node
 from .files import Files
+from .motion.motion_fields import MotionFields
 from .panel_layout import begin_panel
 from .properties.camera_fields import draw_cameras
 from .properties.collider_fields import draw_colliders
@@ -47,6 +49,7 @@ class PropertiesPanel:
         self._materials = MaterialFields(workspace, files, self._fields)
         self._seen: Node | None = None
         self._kinds: tuple[tuple, set[str]] = ((), set())
+        self._motion = MotionFields(workspace)
 
     def draw(self) -> None:
         """Lay the panel out."""
@@ -82,6 +85,9 @@ class PropertiesPanel:
         if self._kinds_of(nodes) == {"mesh"}:  # it may have gone meanwhile
             self._materials.draw(nodes)
             draw_colliders(self._fields, nodes)
+        imgui.push_item_width(-imgui.get_font_size() * 7)
+        self._motion.draw(nodes[-1])
+        imgui.pop_item_width()
         self._draw_switches(nodes)
 
     def _draw_head(self, nodes: Sequence[Node]) -> None:
@@ -96,6 +102,10 @@ class PropertiesPanel:
             if entered and name != nodes[0].name:
                 fields.set(nodes, {"name": name}, "Rename")
         fields.flag(nodes, "visible", "Visible")
+
+    def draw_material_values(self, material: Material) -> None:
+        """Lay out what a material is made of, also for other panels."""
+        self._materials.draw_values([material])
 
     def _draw_switches(self, nodes: Sequence[Node]) -> None:
         """Lay out how nodes take part in shadows, and whether they rest."""

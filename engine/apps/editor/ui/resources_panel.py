@@ -10,10 +10,12 @@ import time
 
 from imgui_bundle import imgui
 
+from ....model.materials.material import Material
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..resource_list import Entry
-from ..thumbnails import Thumbnails
+from .materials import material_actions
 from .panel_layout import begin_panel
+from .shown_thumbnails import ShownThumbnails
 from .style import scaled
 from .workspace import Workspace
 
@@ -34,9 +36,8 @@ class ResourcesPanel:
     """
 
     def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
-        self._workspace, self._painter = workspace, painter
-        self._thumbnails = Thumbnails(round(scaled(PICTURE)))
-        self._numbers: dict[int, tuple[object, int]] = {}
+        self._workspace = workspace
+        self._thumbnails = ShownThumbnails(painter, round(scaled(PICTURE)))
         self._deadline = 0.0
         self.is_waiting = False
 
@@ -47,15 +48,9 @@ class ResourcesPanel:
         shown = begin_panel("Resources")
         if shown:
             entries = self._workspace.resources.entries()
-            self._forget_unused(entries)
+            self._thumbnails.forget_unused(len(entries))
             self._draw_table(entries)
         imgui.end()
-
-    def _forget_unused(self, entries: tuple[Entry, ...]) -> None:
-        if len(self._numbers) > 2 * len(entries) + PICTURE:
-            for _, number in self._numbers.values():
-                self._painter.remove(number)
-            self._numbers.clear()
 
     def _draw_table(self, entries: tuple[Entry, ...]) -> None:
         flags = imgui.TableFlags_
@@ -77,7 +72,8 @@ class ResourcesPanel:
         side = scaled(PICTURE)
         imgui.table_next_row(0, side)
         imgui.table_next_column()
-        picture = self._picture(entry)
+        picture, waits = self._thumbnails.number(entry.thing, self._deadline)
+        self.is_waiting |= waits
         if picture:
             imgui.image(imgui.ImTextureRef(picture), (side, side))
             imgui.same_line()
@@ -85,19 +81,9 @@ class ResourcesPanel:
         if imgui.selectable(f"{entry.name}##{number}", False, flags, (0.0, side))[0]:
             users = self._workspace.resources.users(entry.thing)
             self._workspace.document.selection.set(users)
+        if isinstance(entry.thing, Material):
+            material_actions.drag(entry.thing)
         size = f"{entry.size:,} bytes" if entry.size else ""
         for text in (entry.kind, size, entry.path or "", f"{entry.users:,}"):
             imgui.table_next_column()
             imgui.text_unformatted(text)
-
-    def _picture(self, entry: Entry) -> int:
-        """Return the number of an entry's thumbnail; 0 if it is not ready."""
-        pixels = self._thumbnails.get_if_time(entry.thing, self._deadline)
-        held, number = self._numbers.get(id(entry.thing), (None, 0))
-        if pixels is None:
-            self.is_waiting = True
-        elif pixels is not held:
-            number = number or self._painter.add(pixels, opaque=True)
-            self._painter.replace(number, pixels, opaque=True)
-            self._numbers[id(entry.thing)] = pixels, number
-        return number

@@ -17,8 +17,11 @@ from ....stage.overlays.selection_outline import WIDTH, closed, outline_pixels
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
+from .materials import material_actions
+from .motion.motion_lines import draw_ways
 from .overlays import Overlays
 from .panel_layout import begin_panel
+from .scene_figures import SceneFigures
 from .scene_pictures import ScenePictures
 from .scene_tools import draw_tools
 from .style import scaled
@@ -61,7 +64,7 @@ class ScenePanel:
         self._gizmo = GizmoHandles(workspace)
         self._preview = CameraPreview(workspace, painter)
         self._axes = ClickableAxes(workspace, painter)
-        self._seconds = 0.0
+        self._figures = SceneFigures(workspace)
         self._corner = imgui.ImVec2(0.0, 0.0)
         self._is_hovered = False
         self._pressed: tuple[float, float] | None = None
@@ -71,6 +74,11 @@ class ScenePanel:
         """Free the renderers."""
         self._pictures.close()
         self._preview.close()
+
+    @property
+    def is_outdated(self) -> bool:
+        """Whether the panel tells of pictures a second though nothing was drawn lately."""
+        return self._figures.shows_rate
 
     def node_under_mouse(self) -> Node | None:
         """Return the node under the mouse, if the mouse is over the scene."""
@@ -95,6 +103,15 @@ class ScenePanel:
             self._show(size)
         imgui.end()
 
+    def _accept_material(self, corner) -> None:
+        """Take a material that is dropped on the picture."""
+        if imgui.begin_drag_drop_target():
+            mouse = imgui.get_io().mouse_pos
+            place = int(mouse.x - corner.x), int(mouse.y - corner.y)
+            found = pick(self._workspace.scene, self._frame, *place, reach=0.0)
+            material_actions.accept(self._workspace, found and found.node, found)
+            imgui.end_drag_drop_target()
+
     # The picture
 
     def _show(self, size: tuple[int, int]) -> None:
@@ -105,10 +122,12 @@ class ScenePanel:
         imgui.set_cursor_screen_pos(corner)
         imgui.image(imgui.ImTextureRef(self._number), size)
         hovered = self._is_hovered = imgui.is_item_hovered()
+        self._accept_material(corner)
         self._corner = corner
         captured = False
         if not self._workspace.display.as_rendered:
             self._overlays.draw(self._frame, corner)
+            draw_ways(self._workspace, self._frame, corner)
             self._draw_times(corner)
             if self._overlays.shown["ball"]:
                 captured = self._axes.draw(self._frame, corner, hovered)
@@ -133,7 +152,7 @@ class ScenePanel:
             return
         start = time.perf_counter()
         self._frame = frame = self._pictures.draw(size, self._overlays.shown["grid"])
-        self._seconds = time.perf_counter() - start
+        self._figures.note(time.perf_counter() - start)
         ids = [] if workspace.display.as_rendered else self._selected_ids()
         if ids:
             inside = closed(np.isin(frame.object_id, ids), self._pictures.grid_pixels(frame))
@@ -144,12 +163,8 @@ class ScenePanel:
         self._drawn = key
 
     def _draw_times(self, corner) -> None:
-        """Show the times of the scene's last picture."""
-        triangles = self._frame.stats["triangles"]
-        text = f"{1e3 * self._seconds:.1f} ms, {triangles:,} triangles"
-        if self._workspace.document.moves:
-            animator = self._workspace.document.animator
-            text += f", {animator.time:.2f} s, frame {self._workspace.moments}"
+        """Show the figures of the scene's last picture."""
+        text = self._figures.text(self._frame)
         place = corner.x + scaled(8.0), corner.y + self._frame.height - 1.5 * imgui.get_font_size()
         color = imgui.get_color_u32(imgui.Col_.text_disabled)
         imgui.get_window_draw_list().add_text(place, color, text)

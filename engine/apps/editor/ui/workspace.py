@@ -27,6 +27,7 @@ from ....stage.views.orbit import OrbitController
 from ....stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from ...desktop.recent_files import RecentFiles
 from ..autosave import Autosave
+from ..clipboard import Clipboard
 from ..console import Console
 from ..document import SceneDocument
 from ..dropping import drop_file
@@ -34,14 +35,13 @@ from ..hierarchy import Hierarchy
 from ..history import Command
 from ..new_things.starts import STARTS, Start, empty
 from ..recovery import Recovery
-from ..resource_list import ResourceList
 from ..value_commands import SetValues
 from .view.ground_grid import with_grid
 from .view.standard_views import look_from
 from .view.through_camera import ThroughCamera
 
 #: The panels, by their titles.
-PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
+PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Materials", "Timeline", "Console")
 #: Pictures drawn until a field receives the focus.
 FOCUSING = 6
 #: Half the side of the ground that is framed, and the radius of what is shown, while there is
@@ -150,6 +150,7 @@ class Workspace:
         Grows whenever something was done that may show.
     resources : ResourceList
     recent : RecentFiles
+    clipboard : Clipboard
     wants_exit : bool
         Whether the editor is to close.
     """
@@ -165,6 +166,7 @@ class Workspace:
         self.changes = 0
         self.wants_exit = False
         self.recent = RecentFiles()
+        self.clipboard = Clipboard()
         self._drags = 0
         self._autosave: Autosave | None = None
         self.start(STARTS[0])
@@ -177,7 +179,7 @@ class Workspace:
         self.plays, self.moments = False, 0
         self._autosave = Autosave(document)
         self.hierarchy = Hierarchy(document.scene)
-        self.resources = ResourceList(document.scene)
+        self.resources = document.resources
         self.view = Viewpoint(np.zeros(3), 10.0)
         self.orbit = OrbitController(self.view)
         self.through = ThroughCamera(self.view)
@@ -333,9 +335,11 @@ class Workspace:
     def play_or_pause(self) -> None:
         """Start or pause the time."""
         self.plays = not self.plays
-        if self.plays and not self.document.moves:
+        if not self.plays:
+            self.document.settle()
+        elif not self.document.moves:
             self.plays = False
-            self.console.write("message", "nothing moves: animator.spin(node, period=4) lets it")
+            self.console.write("message", "nothing moves: the menu Motion lets the selected node")
 
     def rewind(self) -> None:
         """Go to time 0."""

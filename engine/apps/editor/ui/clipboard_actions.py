@@ -1,0 +1,44 @@
+"""Copy, cut and paste, by the clipboard of the window system.
+
+In: the selection, the clipboard's text. Out: commands; text for this and other windows.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from ....errors import Engine3DError
+from ..node_commands import DeleteNodes, counted
+from .workspace import Workspace
+
+
+def copy(workspace: Workspace) -> bool:
+    """Copy the selected nodes; return whether there were any."""
+    nodes = workspace.document.selection.nodes
+    if not nodes:
+        return False
+    text, told = workspace.clipboard.copy(nodes)
+    imgui.set_clipboard_text(text)
+    for message in told:
+        workspace.console.write("warning", f"Copy: {message}")
+    workspace.console.write("message", counted("Copy", workspace.document.selection.topmost()))
+    return True
+
+
+def cut(workspace: Workspace) -> None:
+    """Copy the selected nodes, and delete them."""
+    if copy(workspace):
+        command = DeleteNodes(workspace.scene, workspace.document.selection.nodes)
+        command.label = counted("Cut", command.nodes)
+        workspace.do(command)
+
+
+def paste(workspace: Workspace) -> None:
+    """Add the nodes of the clipboard, where they were copied; they are selected."""
+    try:
+        with workspace.console.warnings_noted():
+            command = workspace.clipboard.paste(workspace.scene, imgui.get_clipboard_text())
+    except Engine3DError as error:
+        workspace.console.write("error", f"Paste: {error}")
+        return
+    workspace.do(command)

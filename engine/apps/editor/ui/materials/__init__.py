@@ -1,0 +1,1 @@
+"""The editor's materials: their list, and what gives them to nodes."""

@@ -78,6 +78,16 @@ def test_the_wheel_moves_a_page_that_is_too_long():
     assert all((top == page).all() for page in (back, up, resized))
 
 
+def test_an_answer_is_kept_in_sight():
+    FakeWindow.size = (1000, 300)
+    try:
+        window, _ = play(*keys("4"), events.Wheel(-100.0))
+    finally:
+        FakeWindow.size = (1240, 700)
+    _, top, typed, end = window.shown
+    assert (top != typed).any() and (typed == end).all()
+
+
 def test_a_terminal_gets_lines():
     window, session = play(*keys("Right", "C"), kind=FakeTerminal)
     assert all(len(lines) == 24 for lines in window.shown)

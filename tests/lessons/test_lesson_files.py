@@ -1,6 +1,7 @@
 """The files of lessons: they fit the programs, and the lines to type run by themselves."""
 
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -110,3 +111,19 @@ def test_programs_take_what_their_files_name():
     for program in PROGRAMS:
         taken = inspect.signature(steps_function(program)).parameters
         assert {parameter.name for parameter in texts_of(program).parameters} <= set(taken)
+
+
+def test_the_teachers_page_has_the_answers_and_leads_to_the_solutions():
+    for language in LANGUAGES:
+        page = (SOLUTIONS.parent / language / "teacher.md").read_text("utf-8")
+        rows = re.findall(
+            r"^\| \[(.*?)\]\((\w+)\.md\) .*\| (\S+) \| \[.*?\]\((.*?)\) \|$", page, re.M
+        )
+        assert len(rows) == len(PROGRAMS)
+        for (title, name, answer, solution), program in zip(rows, PROGRAMS, strict=True):
+            texts = texts_of(program)
+            assert (title, name) == (texts.title(language), program.stem)
+            assert texts.is_right(answer)
+            assert solution == f"../solutions/{program.name}"
+            pupils = (SOLUTIONS.parent / language / f"{name}.md").read_text("utf-8")
+            assert "solutions/" not in pupils and "teacher" not in pupils

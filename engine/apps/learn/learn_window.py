@@ -57,7 +57,7 @@ class LearnWindow:
             case events.KeyDown("C"):
                 return self._copy()
             case events.KeyDown(key):
-                return self._scrolls(key) or self._session.press(key)
+                return self._scrolls(key) or self._press(key)
             case events.Wheel(steps):
                 return self._move(-round(steps * WHEEL_LINES))
             case events.MouseButton("left", True):
@@ -68,6 +68,14 @@ class LearnWindow:
             case events.Resized() | events.Exposed():
                 return True
         return False
+
+    def _press(self, key: str) -> bool:
+        """Give a key to the session; the answer is at the end of the page, and stays in sight."""
+        before = self._session.answer
+        changes = self._session.press(key)
+        if self._session.answer != before:
+            self._scroll = self._overflow
+        return changes
 
     def _pressed(self, x: int, y: int) -> bool:
         if self._page is None or not self._page.press(x, y):

@@ -25,7 +25,7 @@ from .lesson_programs import Listing, Step, first_values, steps_of, texts_of
 from .rich_text import paragraphs
 from .words import say
 
-_TAGS = {"plain": "{}", "bold": "<b>{}</b>", "code": "<code>{}</code>"}
+_TAGS = {"plain": "{}", "bold": "<b>{}</b>", "italic": "<i>{}</i>", "code": "<code>{}</code>"}
 
 
 def lesson_html(program: Path, language: str) -> str:

@@ -18,7 +18,7 @@ from .rich_text import Span, paragraphs, wrapped
 from .words import KEYS, say
 
 RESET = "\x1b[0m"
-_STYLES = {"plain": "", "bold": "\x1b[1m", "code": "\x1b[36m"}
+_STYLES = {"plain": "", "bold": "\x1b[1m", "italic": "\x1b[3m", "code": "\x1b[36m"}
 _HEADING = "\x1b[1;33m"
 _MARK = "\x1b[33m▌\x1b[0m"
 #: Of the rows, those that a picture may take.

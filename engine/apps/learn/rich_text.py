@@ -1,4 +1,4 @@
-"""The little of Markdown that lessons use: paragraphs, **bold** and `code`.
+"""The little of Markdown that lessons use: paragraphs, **bold**, *italic* and `code`.
 
 In: texts of lessons. Out: paragraphs of spans (text, kind), and lines of them that are no wider
 than a view has room for.
@@ -11,9 +11,9 @@ from collections.abc import Callable, Sequence
 
 from .captions import unbroken
 
-#: A text and its kind: "plain", "bold" or "code".
+#: A text and its kind: "plain", "bold", "italic" or "code".
 Span = tuple[str, str]
-_MARKED = re.compile(r"\*\*(.+?)\*\*|`(.+?)`")
+_MARKED = re.compile(r"\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*|`(?P<code>.+?)`")
 
 
 def paragraphs(text: str) -> list[list[Span]]:
@@ -26,7 +26,8 @@ def _spans(paragraph: str) -> list[Span]:
     spans, place = [], 0
     for match in _MARKED.finditer(paragraph):
         spans.append((paragraph[place : match.start()], "plain"))
-        spans.append((match[1], "bold") if match[1] else (match[2], "code"))
+        kind = match.lastgroup or "plain"
+        spans.append((match[kind], kind))
         place = match.end()
     spans.append((paragraph[place:], "plain"))
     return [span for span in spans if span[0]]

@@ -114,8 +114,8 @@ COMMANDS = {
         common=(*_OF_PICTURES, "--turntable", "--animation", "--no-background"),
     ),
     "info": Command(
-        "print what model files hold, or what a report of a bug should say",
-        "Print the lists that model files hold, their bounds and their warnings; or, with "
+        "tell what model files hold, or what a report of a bug should say",
+        "Count what the lists of model files hold, and print bounds and warnings; or, with "
         "--system, what a report of a bug should say of the machine and the installation.",
         _add_info,
     ),

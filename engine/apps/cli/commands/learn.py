@@ -16,7 +16,7 @@ from ..outputs import check_folder
 from ..quietness import remark
 from ..usage import UsageError
 
-SIZE = (1240, 700)
+SIZE = (1240, 720)
 PAGES = (".html", ".htm")
 
 

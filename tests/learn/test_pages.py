@@ -171,3 +171,10 @@ def test_html_checks_the_answer_as_the_window_does(page):
     right, wrong = map(int, done.stdout.split())
     assert right == data["check"] != wrong
     assert ">50<" not in text
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="needs node")
+def test_the_script_of_html_is_one(page, tmp_path):
+    _, text = page
+    (tmp_path / "page.js").write_text(re.search(r"<script>(.*)</script>", text, re.S)[1], "utf-8")
+    subprocess.run(["node", "--check", tmp_path / "page.js"], check=True)

@@ -62,7 +62,7 @@ def test_keys_and_buttons_go_through_the_steps():
 def test_c_copies_the_code():
     window, session = play(*keys("C"))
     assert window.clipboard.splitlines() == list(session.texts.code)
-    assert "clipboard" in session.verdict
+    assert "clipboard" in session.said
 
 
 def test_the_wheel_moves_a_page_that_is_too_long():
@@ -92,7 +92,7 @@ def test_a_terminal_gets_lines():
     window, session = play(*keys("Right", "C"), kind=FakeTerminal)
     assert all(len(lines) == 24 for lines in window.shown)
     assert "step 2 of 6" in window.shown[-1][0]
-    assert session.verdict == "engine3d learn lines --code prints the code."
+    assert session.said == "engine3d learn lines --code prints the code."
 
 
 def test_what_is_shown_is_opaque():

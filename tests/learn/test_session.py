@@ -75,11 +75,13 @@ def test_parameters_are_chosen_in_turn():
 
 def test_an_answer_is_typed_and_checked(session):
     press(session, "4", "Keypad 9", "Return")
-    assert (session.answer, session.verdict) == ("49", "Not yet: try again.")
+    assert (session.answer, session.said) == ("49", "Not yet: try again.")
+    session.remark("copied")
     press(session, "Backspace", "Backspace", "5", "0", ".", "0", "Return")
-    assert session.is_right and session.verdict == "Right!"
+    assert (session.said, session.mood) == ("Right!", "right")
     press(session, "-", "Return")
-    assert session.answer == "-" and session.verdict == "That is no number."
+    assert (session.answer, session.said) == ("-", "That is no number.")
+    assert session.mood == "wrong"
     place = session.place
     press(session, "Backspace", "Return")
     assert session.place != place

@@ -34,10 +34,10 @@ class Session:
     language : str
     answer : str
         To the exercise, as far as it is typed.
-    verdict : str
+    said : str
         What is said of the answer, or of what was done last.
-    is_right : bool
-        Whether the verdict is that the answer is right.
+    mood : {"right", "wrong", "plain"}
+        Whether that is that the answer is right or wrong, or something else.
     shows_help, is_at_end : bool
         Whether the list of keys, or the end of the course, is shown in place of a step.
     is_over : bool
@@ -54,7 +54,8 @@ class Session:
         self.number = number
         self.values = first_values(self._programs[number])
         self._chosen = 0
-        self._say_nothing()
+        self.answer = ""
+        self.remark("")
         self.is_at_end = False
         self._place = 0
         self._begin()
@@ -115,8 +116,8 @@ class Session:
         return number_text(value, "", self.language)
 
     def remark(self, text: str) -> None:
-        """Say something in place of a verdict."""
-        self.verdict, self.is_right = text, True
+        """Say something that is neither right nor wrong."""
+        self.said, self.mood = text, "plain"
 
     @property
     def chosen(self) -> int:
@@ -144,8 +145,8 @@ class Session:
             self._type(key)
         elif key == "Backspace" and self.answer:
             self.answer = self.answer[:-1]
-            self.verdict = ""
-        elif key in ("Return", "Enter") and self.answer and not self.is_right:
+            self.remark("")
+        elif key in ("Return", "Enter") and self.answer and self.mood != "right":
             self.check()
         elif key in _KEYS:
             _KEYS[key](self)
@@ -217,10 +218,10 @@ class Session:
 
     def check(self) -> None:
         """Tell whether the answer is right."""
-        self.is_right = self.texts.is_right(self.answer)
+        is_right = self.texts.is_right(self.answer)
         is_number = plain_answer(self.answer) is not None
-        word = "right" if self.is_right else "wrong" if is_number else "none"
-        self.verdict = say(word, self.language)
+        word = "right" if is_right else "wrong" if is_number else "none"
+        self.said, self.mood = say(word, self.language), "right" if is_right else "wrong"
 
     def leave(self) -> None:
         """End the session."""
@@ -231,13 +232,9 @@ class Session:
         self.shows_help = not self.shows_help
 
     def _type(self, key: str) -> None:
-        if self.is_right:
-            self._say_nothing()
-        self.answer = (self.answer + key)[:LONGEST_ANSWER]
-        self.verdict = ""
-
-    def _say_nothing(self) -> None:
-        self.answer, self.verdict, self.is_right = "", "", False
+        before = "" if self.mood == "right" else self.answer
+        self.answer = (before + key)[:LONGEST_ANSWER]
+        self.remark("")
 
 
 _ACTIONS: dict[Callable[[Session], None], tuple[str, ...]] = {

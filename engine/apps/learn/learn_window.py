@@ -15,7 +15,6 @@ from .words import say
 PATIENCE = 0.25
 #: Lines that the wheel moves the page.
 WHEEL_LINES = 3
-_LINE = 19
 
 
 class LearnWindow:
@@ -111,8 +110,7 @@ class LearnWindow:
             lines, self._overflow = text_page(session, window.cells, self._scroll)
             window.show_lines(lines)
             return
-        step = _LINE * window.scale
-        self._page = draw_page(session, window.size, window.scale, self._scroll * step, self._copy)
-        self._overflow = -(-self._page.overflow // step)
+        self._page = draw_page(session, window.size, window.scale, self._scroll, self._copy)
+        self._overflow = self._page.overflow
         window.present(self._page.pixels)
         window.title = title

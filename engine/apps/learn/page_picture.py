@@ -20,14 +20,15 @@ from .lesson_programs import Listing
 from .rich_text import Span, paragraphs, wrapped
 from .words import KEYS, say
 
-#: Pixels of the em on a screen of the usual density.
-TYPE = 14
+#: Pixels of the em in a window of the usual size, on a screen of the usual density.
+TYPE, USUAL_SIZE = 14, (1240, 720)
 #: Columns of code that have room.
 CODE_COLUMNS = 72
 PAPER, INK, QUIET = (30, 33, 40), (226, 228, 230), (150, 158, 172)
 ACCENT, BAR, PANEL = (255, 200, 0), (58, 62, 44), (38, 42, 51)
 GOOD, BAD = (130, 210, 130), (240, 140, 110)
 _SPAN_COLORS = {"bold": ACCENT, "code": COLORS["number"]}
+_MOODS = {"right": GOOD, "wrong": BAD, "plain": QUIET}
 _LEAST_PICTURE = 240
 
 Box = tuple[int, int, int, int]
@@ -43,7 +44,7 @@ class Page:
     places : list of (box, function)
         What the left button does there; boxes are (left, top, right, bottom).
     overflow : int
-        Pixels of the column of text that are below the window.
+        Lines of the column of text that are below the window.
     """
 
     pixels: np.ndarray
@@ -128,11 +129,11 @@ def draw_page(
     scale : int
         Of the screen.
     scroll : int
-        Pixels by which the column of text is moved up.
+        Lines by which the column of text is moved up.
     copy : callable, optional
         What a press on the code does.
     """
-    type_size = TYPE * scale
+    type_size = _type_size(size, scale)
     canvas = Canvas(size)
     canvas.clear(PAPER)
     page = Page(canvas.pixels)
@@ -153,6 +154,12 @@ def draw_page(
         _picture_column(page, canvas, session, (gap, top, left - gap, bottom), type_size)
         _text_column(page, canvas, session, (left, top, size[0], bottom), (type_size, scroll), copy)
     return page
+
+
+def _type_size(size: tuple[int, int], scale: int) -> int:
+    """Return pixels of the em: letters grow with the window, as pictures do, for a projector."""
+    larger = min(side / (scale * usual) for side, usual in zip(size, USUAL_SIZE, strict=True))
+    return round(TYPE * scale * max(larger, 1.0))
 
 
 def _head_and_foot(pen: _Pen, session: Session, size: tuple[int, int], gap: int) -> None:
@@ -322,13 +329,14 @@ def _text_column(
     pen.heading(say("exercise", language))
     pen.paragraph(texts.texts["exercise", language])
     _answer(pen, session)
-    page.overflow = max(pen.y + type_size - room, 0)
-    moved = min(scroll, page.overflow)
+    below = max(pen.y + type_size - room, 0)
+    page.overflow = -(-below // pen.line)
+    moved = min(scroll * pen.line, below)
     _put(canvas.pixels, column.pixels[moved : moved + room], left, top)
     if copy is not None:
         code = max(code_top - moved, 0) + top, min(code_bottom - moved + top, bottom)
         page.places.append(((left, code[0], right, code[1]), copy))
-    if moved < page.overflow:
+    if moved < below:
         arrow = Canvas(canvas.pixels)
         arrow.text(right - 2 * type_size, bottom - pen.line, "↓", ACCENT, font=pen.sans)
 
@@ -342,7 +350,7 @@ def _answer(pen: _Pen, session: Session) -> None:
     wide = 12 * pen.mono.width("0")
     pen.canvas.rectangle(x, pen.y, wide, pen.line, PAPER)
     pen.canvas.text(x + 4, pen.y, f"{session.answer}_", ACCENT, font=pen.mono)
-    said = session.verdict or say("type", language)
-    color = QUIET if not session.verdict else GOOD if session.is_right else BAD
+    said = session.said or say("type", language)
+    color = _MOODS[session.mood]
     pen.canvas.text(x + wide + pen.line // 2, pen.y, said, color, font=pen.sans)
     pen.y += pen.line

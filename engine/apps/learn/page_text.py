@@ -21,6 +21,7 @@ RESET = "\x1b[0m"
 _STYLES = {"plain": "", "bold": "\x1b[1m", "italic": "\x1b[3m", "code": "\x1b[36m"}
 _HEADING = "\x1b[1;33m"
 _MARK = "\x1b[33m▌\x1b[0m"
+_MOODS = {"right": "\x1b[32m", "wrong": "\x1b[31m", "plain": "\x1b[2m"}
 #: Of the rows, those that a picture may take.
 _PICTURE_SHARE = 0.6
 
@@ -81,7 +82,8 @@ def _body(session: Session, columns: int, rows: int) -> list[str]:
         "",
         _heading(say("exercise", language)),
         *_prose(texts.texts["exercise", language], columns),
-        f"{say('answer', language)} {session.answer}_  {session.verdict or say('type', language)}",
+        f"{say('answer', language)} {session.answer}_  "
+        f"{_MOODS[session.mood]}{session.said or say('type', language)}{RESET}",
     ]
 
 

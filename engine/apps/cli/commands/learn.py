@@ -16,7 +16,6 @@ from ..outputs import check_folder
 from ..quietness import remark
 from ..usage import UsageError
 
-SIZE = (1240, 720)
 PAGES = (".html", ".htm")
 
 
@@ -114,8 +113,9 @@ def open_window(args: argparse.Namespace, title: str):
         from ...terminal.terminal_window import TerminalWindow
 
         return TerminalWindow()
+    from ...learn.page_picture import USUAL_SIZE
     from ...viewer.window import Window
 
-    window = Window(SIZE, title, wait=True)
+    window = Window(USUAL_SIZE, title, wait=True)
     window.fit_to_screen()
     return window

@@ -81,10 +81,11 @@ def test_a_low_window_moves_its_texts():
 
 
 @pytest.mark.parametrize("size", [(64, 64), (300, 200), (3000, 2000)])
-def test_a_page_has_any_size(size):
-    for number in (0, 2, 9):
+@pytest.mark.parametrize("scale", [0.5, 1.0, 1.5, 4.0])
+def test_a_page_has_any_size(size, scale):
+    for number in (0, 9):
         session = Session(PROGRAMS, number, "en")
-        assert draw_page(session, size, scale=2).pixels.shape == (size[1], size[0], 4)
+        assert draw_page(session, size, scale).pixels.shape == (size[1], size[0], 4)
 
 
 def test_letters_grow_with_the_window():

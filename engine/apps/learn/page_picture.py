@@ -21,7 +21,7 @@ from .rich_text import Span, paragraphs, wrapped
 from .words import KEYS, say
 
 #: Pixels of the em in a window of the usual size, on a screen of the usual density.
-TYPE, USUAL_SIZE = 14, (1240, 720)
+TYPE, LEAST_TYPE, USUAL_SIZE = 14, 12, (1240, 720)
 #: Columns of code that have room.
 CODE_COLUMNS = 72
 PAPER, INK, QUIET = (30, 33, 40), (226, 228, 230), (150, 158, 172)
@@ -115,7 +115,7 @@ class _Pen:
 def draw_page(
     session: Session,
     size: tuple[int, int],
-    scale: int = 1,
+    scale: float = 1.0,
     scroll: int = 0,
     copy: Callable[[], object] | None = None,
 ) -> Page:
@@ -126,8 +126,8 @@ def draw_page(
     session : Session
     size : (int, int)
         Of the window.
-    scale : int
-        Of the screen.
+    scale : float
+        Of the screen: how many times as large letters are, in pixels, as on a usual one.
     scroll : int
         Lines by which the column of text is moved up.
     copy : callable, optional
@@ -149,17 +149,20 @@ def draw_page(
         pen.paragraph(say("after", session.language))
     else:
         wanted = max(int(0.44 * size[0]), CODE_COLUMNS * pen.mono.width(" ") + 2 * gap)
-        column = min(wanted, max(size[0] - _LEAST_PICTURE * scale, size[0] // 2))
+        column = min(wanted, max(size[0] - _LEAST_PICTURE, size[0] // 2))
         left = size[0] - column
         _picture_column(page, canvas, session, (gap, top, left - gap, bottom), type_size)
         _text_column(page, canvas, session, (left, top, size[0], bottom), (type_size, scroll), copy)
     return page
 
 
-def _type_size(size: tuple[int, int], scale: int) -> int:
-    """Return pixels of the em: letters grow with the window, as pictures do, for a projector."""
+def _type_size(size: tuple[int, int], scale: float) -> int:
+    """Return pixels of the em: letters grow with the window, as pictures do, for a projector.
+
+    In a narrow window they shrink to what leaves room for a picture beside the code.
+    """
     larger = min(side / (scale * usual) for side, usual in zip(size, USUAL_SIZE, strict=True))
-    return round(TYPE * scale * max(larger, 1.0))
+    return min(round(TYPE * scale * max(larger, 1.0)), max(size[0] // CODE_COLUMNS, LEAST_TYPE))
 
 
 def _head_and_foot(pen: _Pen, session: Session, size: tuple[int, int], gap: int) -> None:

@@ -77,6 +77,22 @@ def test_the_code_is_printed(capsys):
     assert code.startswith("def dda(")
 
 
+@pytest.mark.parametrize(
+    ("program", "status", "said"),
+    [
+        ("print('of', 101, 'lines', 50)", 0, "50: Right!\n"),
+        ("print(50, 51)", 1, "51: Not yet: try again.\n"),
+        ("print('many')", 1, "That is no number.\n"),
+        ("1 / 0", 1, ""),
+    ],
+)
+def test_a_program_of_ones_own_is_checked(program, status, said, tmp_path, capfd):
+    (tmp_path / "mine.py").write_text(program)
+    assert main(["learn", "lines", "--check", "mine.py"]) == status
+    out, err = capfd.readouterr()
+    assert out == said and ("ZeroDivisionError" in err) == (said == "")
+
+
 def test_pictures_go_to_a_folder(tmp_path, capfd):
     assert main(["learn", "lists", "-o", "pictures"]) == 0
     assert (tmp_path / "pictures" / "01_lists.png").stat().st_size > 1000

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
+import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,6 +13,7 @@ from pathlib import Path
 from ....errors import DisplayError
 from ....io.output.animation_files import numbered_path
 from ...learn.lesson_programs import find_programs, shared_by_lessons, steps_function, texts_of
+from ...learn.words import say
 from ..arguments import meant
 from ..outputs import check_folder
 from ..quietness import remark
@@ -34,6 +37,8 @@ def learn(args: argparse.Namespace) -> int:
     elif args.code:
         for line in texts_of(program).code:
             write_line(line)
+    elif args.check is not None:
+        return check(program, args.check, language)
     elif args.output is not None:
         write(program, args.output, language)
     else:
@@ -64,6 +69,18 @@ def choose(wanted: str, programs: list[Path]) -> int:
             return number
     hint = meant(wanted, [name[3:] for name in names])
     raise UsageError(f"no lesson {wanted}{hint} (engine3d learn --list has them all)")
+
+
+def check(program: Path, file: str, language: str) -> int:
+    """Tell whether a pupil's program prints the answer of the exercise; return the exit status."""
+    done = subprocess.run([sys.executable, file], stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:  # what is wrong has been printed
+        return 1
+    numbers = re.findall(r"-?\d+(?:[.,]\d+)?", done.stdout)
+    is_right = bool(numbers) and texts_of(program).is_right(numbers[-1])
+    verdict = say("right" if is_right else "wrong" if numbers else "none", language)
+    write_line(f"{numbers[-1]}: {verdict}" if numbers else verdict)
+    return 0 if is_right else 1
 
 
 def write(program: Path, output: str, language: str) -> None:

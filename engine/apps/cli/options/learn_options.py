@@ -18,6 +18,12 @@ def add(command) -> None:
     command.add_argument("--path", action="store_true", help="print where the program is")
     command.add_argument("--code", action="store_true", help="print the lines to type")
     command.add_argument(
+        "--check",
+        metavar="FILE",
+        help="run a program of yours, and tell whether the last number that it prints answers the "
+        "exercise",
+    )
+    command.add_argument(
         "--terminal",
         action="store_true",
         help="show it in the terminal, also over SSH: as kitty graphics, sixels or coloured text",

@@ -18,7 +18,7 @@ from .rich_text import Span, paragraphs, wrapped
 from .words import KEYS, say
 
 RESET = "\x1b[0m"
-_STYLES = {"plain": "", "bold": "\x1b[1m", "italic": "\x1b[3m", "code": "\x1b[36m"}
+_STYLES = {"bold": "\x1b[1m", "italic": "\x1b[3m", "code": "\x1b[36m"}
 _HEADING = "\x1b[1;33m"
 _MARK = "\x1b[33m▌\x1b[0m"
 _MOODS = {"right": "\x1b[32m", "wrong": "\x1b[31m", "plain": "\x1b[2m"}
@@ -97,7 +97,7 @@ def _prose(text: str, columns: int) -> list[str]:
 
 def _styled(span: Span) -> str:
     text, kind = span
-    return f"{_STYLES[kind]}{text}{RESET}" if _STYLES[kind] else text
+    return f"{_STYLES[kind]}{text}{RESET}" if kind in _STYLES else text
 
 
 def _code(lines: Sequence[str], marked: range) -> list[str]:

@@ -437,9 +437,10 @@ if __name__ == "__main__":
             "engine3d": ["py.typed", "*.pyi"],
             "engine3d._native": ["*.pyi"],
             "engine3d.apps.golden": ["*.html"],
+            "engine3d.apps.learn": ["*.html"],
             "engine3d.data": [f"**/*.{suffix}" for suffix in DATA_SUFFIXES],
             # Text only: their pictures are in docs/course, and are drawn anew by whoever runs them.
-            "engine3d.lessons": ["*.c", "*.obj", "*.asc"],
+            "engine3d.lessons": ["*.c", "*.obj", "*.asc", "[0-9]*.md"],
         },
         data_files=[
             (folder, [f"data/desktop/{name}"])

@@ -6,7 +6,7 @@ cut into triangles, joined or moved.
 
 import sys
 
-from lesson import FOLDER, main, text
+from lesson import FOLDER, listing, main, told
 
 HOUSE = FOLDER / "house.obj"
 
@@ -38,14 +38,16 @@ def resolve(corner, lists):
 
 def list_lines(lists, kind):
     """Return a list of the file as lines of text, numbered from 1 as OBJ does."""
+    rows = [[word if kind == "f" else f"{word:g}" for word in row] for row in lists[kind]]
+    widest = max((len(word) for row in rows for word in row), default=0)
     return [
-        f"{kind:>2} {number:>3}: " + " ".join(f"{word!s:>6}" for word in row)
-        for number, row in enumerate(lists[kind], 1)
+        f"{kind:>2} {number:>3}: " + " ".join(f"{word:>{widest}}" for word in row)
+        for number, row in enumerate(rows, 1)
     ]
 
 
 def numbers(row):
-    return " ".join(f"{number:g}" for number in row)
+    return " ".join(f"{number:>7g}" for number in row)
 
 
 def print_lists(model=HOUSE):
@@ -56,7 +58,8 @@ def print_lists(model=HOUSE):
         sys.stdout.writelines(f"{line}\n" for line in list_lines(lists, kind))
 
 
-def steps(width=360, height=184, model=HOUSE):
+def steps(width=0, height=0, model=HOUSE, face=1):
+    """Show the lists, then three faces from one on backwards; text needs no size."""
     lists = read_lists(model)
     for kind, what in (
         ("v", "vertices: x y z"),
@@ -64,14 +67,15 @@ def steps(width=360, height=184, model=HOUSE):
         ("vn", "normals: x y z"),
         ("f", "faces as given: v, v/vt, v//vn or v/vt/vn of each corner"),
     ):
-        yield f"{len(lists[kind])} {what}", text(list_lines(lists, kind), width, height)
-    for face in (lists["f"][0], lists["f"][-1], lists["f"][-2]):
-        lines = ["f " + " ".join(face), ""]
-        for corner in face:
+        yield told(f"{{count}} {what}", count=len(lists[kind])), listing(list_lines(lists, kind))
+    for number in (face, face - 1, face - 2):
+        row = (number - 1) % len(lists["f"])
+        lines = ["f " + " ".join(lists["f"][row]), ""]
+        for corner in lists["f"][row]:
             rows = zip(("v", "vt", "vn"), resolve(corner, lists), strict=True)
-            found = [f"{kind} {numbers(lists[kind][row])}" for kind, row in rows if row is not None]
+            found = [f"{kind} {numbers(lists[kind][at])}" for kind, at in rows if at is not None]
             lines += [f"{corner}:", "   " + "  ".join(found)]
-        yield "one face, followed to its lists", text(lines, width, height)
+        yield told("face {number}, followed to its lists", number=row + 1), listing(lines)
 
 
 if __name__ == "__main__":

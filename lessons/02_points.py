@@ -4,7 +4,8 @@ The simplest camera of all: leave out z, scale x and y so that the model fits, a
 it grows upward in space and downward in a picture.
 """
 
-from lesson import MODELS, blank, earlier, main
+import engine3d as e3d
+from lesson import MODELS, blank, earlier, main, told
 
 lists = earlier("01_lists")
 TEAPOT = MODELS / "teapot.obj"
@@ -35,13 +36,19 @@ def to_screen(vertex, scale, middle, width, height):
     return x, y
 
 
-def steps(width=240, height=180, model=TEAPOT):
-    vertices = lists.read_lists(model)["v"]
+def about_vertical(vertices, yaw):
+    """Return the vertices turned about the vertical axis, by radians."""
+    c, s = e3d.linalg.cos(yaw), e3d.linalg.sin(yaw)
+    return [(x * c + z * s, y, z * c - x * s) for x, y, z in vertices]
+
+
+def steps(width=240, height=180, model=TEAPOT, yaw=0.0):
+    vertices = about_vertical(lists.read_lists(model)["v"], yaw)
 
     picture = blank(width, height)
     for x, y, _ in vertices:
         put_point(picture, x, y, DOT)
-    yield f"{len(vertices)} vertices, their x and y taken for pixels", picture
+    yield told("{count} vertices, their x and y taken for pixels", count=len(vertices)), picture
 
     scale, middle = fit(vertices, width, height)
     picture = blank(width, height)

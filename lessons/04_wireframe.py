@@ -1,7 +1,7 @@
 """Wireframe: the edges of the faces as lines, first twice each, then once."""
 
 import engine3d as e3d
-from lesson import MODELS, blank, earlier, main
+from lesson import MODELS, blank, earlier, main, told
 
 lists = earlier("01_lists")
 points = earlier("02_points")
@@ -58,32 +58,37 @@ def draw_edges(vertices, edges, width, height, color=LINE):
     return picture
 
 
-def engine_view(path, width, height):
+def engine_view(path, width, height, yaw=YAW):
     """Return a scene of the engine with the model turned alike, and a camera that sees it so."""
-    turned = turn(lists.read_lists(path)["v"], YAW, PITCH)
+    turned = turn(lists.read_lists(path)["v"], yaw, PITCH)
     scale, (x, y) = points.fit(turned, width, height)
     scene = e3d.Scene(background=(30, 33, 40))
     pitch = scene.add(euler=(PITCH, 0.0, 0.0))
-    scene.add(e3d.load_mesh(path), parent=pitch, euler=(0.0, YAW, 0.0))
+    scene.add(e3d.load_mesh(path), parent=pitch, euler=(0.0, yaw, 0.0))
     camera = e3d.OrthographicCamera(height / 2 / scale)
     return scene, (camera, e3d.look_at((x, y, 50.0), (x, y, 0.0)))
 
 
-def steps(width=240, height=180, model=TEAPOT):
+def lines_drawn(pattern, model, edges):
+    """Return a caption that counts edges of faces, and lines."""
+    return told(pattern, edges=len(all_edges(model)), lines=len(edges))
+
+
+def steps(width=240, height=180, model=TEAPOT, yaw=YAW):
     house = lists.read_lists(HOUSE)
     edges = unique_edges(house)
     yield "a house from the front", draw_edges(house["v"], edges, width, height)
-    turned = turn(house["v"], YAW, PITCH)
-    drawn = f"{len(all_edges(house))} edges of faces, {len(edges)} lines"
-    yield f"turned: {drawn}", draw_edges(turned, edges, width, height)
+    turned = turn(house["v"], yaw, PITCH)
+    caption = lines_drawn("turned: {edges} edges of faces, {lines} lines", house, edges)
+    yield caption, draw_edges(turned, edges, width, height)
 
     lists_of_it = lists.read_lists(model)
     edges = unique_edges(lists_of_it)
-    turned = turn(lists_of_it["v"], YAW, PITCH)
-    drawn = f"{len(all_edges(lists_of_it))} edges of faces, {len(edges)} lines"
-    yield f"the model: {drawn}", draw_edges(turned, edges, width, height)
+    turned = turn(lists_of_it["v"], yaw, PITCH)
+    caption = lines_drawn("the model: {edges} edges of faces, {lines} lines", lists_of_it, edges)
+    yield caption, draw_edges(turned, edges, width, height)
 
-    view = engine_view(model, width, height)
+    view = engine_view(model, width, height, yaw)
     frame = e3d.render(
         *view,
         size=(width, height),

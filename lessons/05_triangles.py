@@ -9,7 +9,7 @@ import time
 import numpy as np
 
 import engine3d as e3d
-from lesson import blank, magnify, main
+from lesson import blank, magnify, main, told
 
 FINE = 256  # parts of a pixel
 HALF = FINE // 2
@@ -145,13 +145,26 @@ def without_rule(a, b, c):
     ]
 
 
-def steps(width=34, height=26):
+def turned(corners, angle, middle):
+    """Return corners turned about a point, by radians."""
+    c, s = e3d.linalg.cos(angle), e3d.linalg.sin(angle)
+    away = [(x - middle[0], y - middle[1]) for x, y in corners]
+    return [(middle[0] + c * x - s * y, middle[1] + s * x + c * y) for x, y in away]
+
+
+def inside(pixels, width, height):
+    return [(x, y) for x, y in pixels if 0 <= x < width and 0 <= y < height]
+
+
+def steps(width=34, height=26, angle=0.0):
     corners = (3.2, 2.6), (30.4, 9.1), (11.7, 24.3)
+    if angle:
+        corners = turned(corners, angle, (15.1, 12.0))
     picture = blank(width, height)
     pixels = sweep(*corners)
-    for x, y in pixels:
+    for x, y in inside(pixels, width, height):
         picture[y, x] = ROW_COLORS[y % 2]
-    yield f"the sweep: {len(pixels)} pixels, row by row", magnify(picture, 7)
+    yield told("the sweep: {count} pixels, row by row", count=len(pixels)), magnify(picture, 7)
 
     picture = blank(width, height)
     a, b, c = (snap(corner) for corner in corners)

@@ -1,7 +1,7 @@
 """Every triangle filled, in a colour of its own, in the order of the file."""
 
 import engine3d as e3d
-from lesson import MODELS, blank, earlier, main
+from lesson import MODELS, blank, earlier, main, told
 
 lists = earlier("01_lists")
 points = earlier("02_points")
@@ -48,15 +48,20 @@ def fill(picture, corners, color):
             picture[y, x] = color
 
 
-def steps(width=240, height=180, model=TEAPOT):
+def steps(width=240, height=180, model=TEAPOT, order="forwards"):
     faces = load(model, width, height)
+    if order == "backwards":
+        faces.reverse()
     picture = blank(width, height)
     drawn = 0
     for count in (len(faces) // 20, len(faces) // 3, len(faces)):
         for number in range(drawn, count):
             fill(picture, faces[number], random_color(number))
         drawn = count
-        yield f"the first {count} triangles of the file", picture.copy()
+        caption = "the first {count} triangles of the file"
+        if order == "backwards":
+            caption = "the last {count} triangles of the file, backwards"
+        yield told(caption, count=count), picture.copy()
 
     view = wireframe.engine_view(model, width, height)
     frame = e3d.render(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 import engine3d as e3d
-from lesson import MODELS, blank, earlier, main
+from lesson import MODELS, blank, earlier, main, told
 
 faces_of = earlier("06_random_colors")
 TEAPOT = MODELS / "teapot.obj"
@@ -41,7 +41,19 @@ def shade(value, color=(255, 215, 150)):
     return [round(part * max(0.0, min(1.0, value))) for part in color]
 
 
-def draw_lit(faces, width, height, cull=True):
+def light_from(angle):
+    """Return the direction to a light that has gone round the model, to the right."""
+    return e3d.linalg.sin(angle), 0.0, e3d.linalg.cos(angle)
+
+
+def lit(normal, light=LIGHT):
+    """Return the brightness of a face that may be seen from either side."""
+    if normal[2] < 0:
+        normal = [-part for part in normal]
+    return max(0.0, brightness(normal, light))
+
+
+def draw_lit(faces, width, height, cull=True, light=LIGHT):
     """Draw the faces in their order, as bright as they face the light."""
     picture = blank(width, height)
     drawn = 0
@@ -50,7 +62,7 @@ def draw_lit(faces, width, height, cull=True):
         if normal is None or (cull and normal[2] <= 0):
             continue
         drawn += 1
-        faces_of.fill(picture, corners, shade(abs(brightness(normal))))
+        faces_of.fill(picture, corners, shade(lit(normal, light)))
     return picture, drawn
 
 
@@ -74,10 +86,10 @@ def visible_faces(faces, width, height):
     return seen.face_id
 
 
-def true_picture(faces, width, height):
+def true_picture(faces, width, height, light=LIGHT):
     """Return the picture with each pixel lit by the face that is in front there."""
     normals = [normal_of(corners) or (0, 0, 0) for corners in faces]
-    colors = [shade(abs(brightness(normal))) for normal in normals]
+    colors = [shade(lit(normal, light)) for normal in normals]
     colors.append((30, 33, 40))
     return np.array(colors, np.uint8)[visible_faces(faces, width, height)]
 
@@ -90,21 +102,26 @@ def differences(picture, truth):
     return marked, int(wrong.sum())
 
 
-def steps(width=240, height=180, model=TEAPOT):
+WRONG = "{wrong:no pixel is|# pixel is|# pixels are} wrong"
+
+
+def steps(width=240, height=180, model=TEAPOT, angle=0.0):
+    light = light_from(angle)
     box = cube(width, height)
-    picture, drawn = draw_lit(box, width, height, cull=False)
+    picture, drawn = draw_lit(box, width, height, cull=False, light=light)
     yield "a cube, all 12 triangles in the order of their list", picture
-    picture, drawn = draw_lit(box, width, height)
-    _, wrong = differences(picture, true_picture(box, width, height))
-    yield f"only the {drawn} that face us: {wrong} pixels are wrong", picture
+    picture, drawn = draw_lit(box, width, height, light=light)
+    _, wrong = differences(picture, true_picture(box, width, height, light))
+    yield told(f"only the {{count}} that face us: {WRONG}", count=drawn, wrong=wrong), picture
 
     faces = faces_of.load(model, width, height)
-    picture, _ = draw_lit(faces, width, height, cull=False)
-    yield f"the model, all {len(faces)} triangles", picture
-    picture, drawn = draw_lit(faces, width, height)
-    yield f"only the {drawn} that face us", picture
-    marked, wrong = differences(picture, true_picture(faces, width, height))
-    yield f"{wrong} pixels still show what is behind something else", marked
+    picture, _ = draw_lit(faces, width, height, cull=False, light=light)
+    yield told("the model, all {count} triangles", count=len(faces)), picture
+    picture, drawn = draw_lit(faces, width, height, light=light)
+    yield told("only the {count} that face us", count=drawn), picture
+    marked, wrong = differences(picture, true_picture(faces, width, height, light))
+    caption = "{wrong:no pixel shows|# pixel still shows|# pixels still show} what is behind"
+    yield told(f"{caption} something else", wrong=wrong), marked
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The painter's algorithm: from far to near, so that what is near is painted over what is far."""
 
-from lesson import MODELS, blank, earlier, main
+from lesson import MODELS, blank, earlier, main, told
 
 faces_of = earlier("06_random_colors")
 light = earlier("07_light")
@@ -12,9 +12,20 @@ def middle_depth(corners):
     return (corners[0][2] + corners[1][2] + corners[2][2]) / 3
 
 
-def painter_order(faces):
+def nearest_depth(corners):
+    return max(z for _, _, z in corners)
+
+
+def farthest_depth(corners):
+    return min(z for _, _, z in corners)
+
+
+DEPTHS = {"middle": middle_depth, "nearest": nearest_depth, "farthest": farthest_depth}
+
+
+def painter_order(faces, depth=middle_depth):
     """Return the triangles from far to near."""
-    return sorted(faces, key=middle_depth)
+    return sorted(faces, key=depth)
 
 
 def in_a_circle(width, height):
@@ -39,22 +50,23 @@ def draw_colored(faces, colors, width, height):
     return picture
 
 
-def steps(width=240, height=180, model=TEAPOT):
-    faces = painter_order(faces_of.load(model, width, height))
+def steps(width=240, height=180, model=TEAPOT, depth="middle"):
+    faces = painter_order(faces_of.load(model, width, height), DEPTHS[depth])
     for part in (0.4, 0.6):
         picture, _ = light.draw_lit(faces[: int(part * len(faces))], width, height, cull=False)
-        yield f"the farthest {part:.0%} of the triangles", picture
+        yield told("the farthest {part:.0f}% of the triangles", part=100 * part), picture
     picture, _ = light.draw_lit(faces, width, height, cull=False)
     yield "all of them", picture
     marked, wrong = light.differences(picture, light.true_picture(faces, width, height))
-    yield f"{wrong} pixels are wrong", marked
+    yield told(light.WRONG, wrong=wrong), marked
 
     bars = in_a_circle(width, height)
     colors = [(240, 90, 80), (90, 170, 250), (255, 200, 0)]
     for first in range(2):
         order = [(first + k) % 3 for k in range(3)]
         picture = draw_colored([bars[k] for k in order], [colors[k] for k in order], width, height)
-        yield f"three triangles over each other in a circle, order {order}", picture
+        caption = "three triangles over each other in a circle, order {order}"
+        yield told(caption, order=", ".join(str(k + 1) for k in order)), picture
     numbers = light.visible_faces(bars, width, height)
     picture = blank(width, height)
     for k, color in enumerate(colors):

@@ -6,7 +6,7 @@ that is left of the segments; a buffer of one depth per column decides which one
 
 from math import ceil
 
-from lesson import blank, earlier, main
+from lesson import DIFFER, blank, earlier, main, told
 
 faces_of = earlier("06_random_colors")
 lines = earlier("03_lines")
@@ -66,9 +66,10 @@ def buffer_picture(ybuffer, row, width, height):
     return picture
 
 
-def steps(width=240, height=180):
+def steps(width=240, height=180, plane=55):
+    """Cut three triangles; plane: its height from the top, in percent of the picture's."""
     triangles = scene(width, height)
-    middle = int(0.55 * height)
+    middle = int(plane / 100 * height)
     y = middle + 0.5
     colors = list(COLORS)
     picture = blank(width, height)
@@ -79,21 +80,24 @@ def steps(width=240, height=180):
     picture[middle] = (255, 255, 255)
     yield "three triangles, and the plane that cuts them", picture
 
-    segments = [cut(corners, y) for corners in triangles]
+    cuts = [(cut(corners, y), color) for corners, color in zip(triangles, colors, strict=True)]
+    segments = [segment for segment, _ in cuts if segment]
+    colors = [color for segment, color in cuts if segment]
     yield "the cut from above: the viewer is below", from_above(segments, colors, width, height)
 
     ybuffer = [FAR] * width
     row = [(15, 16, 20)] * width
     for k, segment in enumerate(segments):
         add_segment(ybuffer, row, segment, colors[k])
-        yield f"buffer and row after segment {k + 1}", buffer_picture(ybuffer, row, width, height)
+        caption = told("buffer and row after segment {number}", number=k + 1)
+        yield caption, buffer_picture(ybuffer, row, width, height)
     wrong = sum(
         tuple(pixel) != color for pixel, color in zip(seen, row, strict=True) if color in colors
     )
     strip = blank(width, height)
     strip[: height // 2] = row
     strip[height // 2 :] = seen
-    yield f"the row, and below it that of the picture: {wrong} pixels differ", strip
+    yield told("the row, and below it that of the picture: " + DIFFER, differ=wrong), strip
 
 
 if __name__ == "__main__":

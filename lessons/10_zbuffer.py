@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lesson import MODELS, blank, earlier, main
+from lesson import DIFFER, MODELS, blank, earlier, main, told
 
 faces_of = earlier("06_random_colors")
 light = earlier("07_light")
@@ -21,14 +21,20 @@ def depth_plane(corners):
     return lambda x, y: az + (x - ax) * dz_dx + (y - ay) * dz_dy
 
 
-def draw(picture, zbuffer, corners, color):
+def rounded(z, bits, height):
+    """Return a depth as a buffer of few bits keeps it: it holds depths of two pictures' heights."""
+    part = 2 * height / 2**bits
+    return z // part * part if bits < 32 else z
+
+
+def draw(picture, zbuffer, corners, color, bits=32):
     """Fill a triangle where it is nearer than what the buffer holds."""
     pixels = triangles.sweep(*(corner[:2] for corner in corners))
     if not pixels:
         return
     depth = depth_plane(corners)
     for x, y in pixels:
-        z = depth(x + 0.5, y + 0.5)
+        z = rounded(depth(x + 0.5, y + 0.5), bits, len(picture))
         if z > zbuffer[y, x]:
             zbuffer[y, x] = z
             picture[y, x] = color
@@ -50,11 +56,12 @@ def gray(zbuffer):
     return picture
 
 
-def steps(width=240, height=180, model=TEAPOT):
+def steps(width=240, height=180, model=TEAPOT, bits=32):
     picture, zbuffer = blank(width, height), empty_buffer(width, height)
     for k, bar in enumerate(painter.in_a_circle(width, height)):
-        draw(picture, zbuffer, bar, COLORS[k])
-        yield f"after triangle {k + 1}: picture and buffer", picture.copy(), gray(zbuffer)
+        draw(picture, zbuffer, bar, COLORS[k], bits)
+        caption = told("after triangle {number}: picture and buffer", number=k + 1)
+        yield caption, picture.copy(), gray(zbuffer)
 
     picture, zbuffer = blank(width, height), empty_buffer(width, height)
     faces = faces_of.load(model, width, height)
@@ -63,11 +70,12 @@ def steps(width=240, height=180, model=TEAPOT):
         for corners in faces[drawn:count]:
             normal = light.normal_of(corners)
             if normal is not None:
-                draw(picture, zbuffer, corners, light.shade(abs(light.brightness(normal))))
+                draw(picture, zbuffer, corners, light.shade(light.lit(normal)), bits)
         drawn = count
-        yield f"after {count} triangles of the model", picture.copy(), gray(zbuffer)
+        caption = told("after {count} triangles of the model", count=count)
+        yield caption, picture.copy(), gray(zbuffer)
     marked, wrong = light.differences(picture, light.true_picture(faces, width, height))
-    yield f"{wrong} pixels differ from the engine's", marked
+    yield told(DIFFER + " from the engine's", differ=wrong), marked
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import numpy as np
 
 import engine3d as e3d
-from lesson import MODELS, blank, earlier, main
+from lesson import MODELS, blank, earlier, main, told
 
 lists = earlier("01_lists")
 wireframe = earlier("04_wireframe")
@@ -69,16 +69,19 @@ def color(seen, width, height, color_of):
     return picture
 
 
-def steps(width=200, height=150, model=TEAPOT):
+def steps(width=200, height=150, model=TEAPOT, repeat=1):
+    """Draw a texture on a model; repeat: how many times it lies on it, in each direction."""
     texture = e3d.load_texture(TEXTURE).pixels
     step = texture.shape[0] // height + 1
-    yield f"the texture, every texel in {step}", texture[::step, ::step, :3][:height, :width]
+    caption = told("the texture, every texel in {step}", step=step)
+    yield caption, texture[::step, ::step, :3][:height, :width]
 
     seen, zbuffer = {}, zbuffer_of.empty_buffer(width, height)
     for corners, uvs in load(model, width, height):
         normal = light.normal_of(corners)
         if normal is not None:
-            draw(seen, zbuffer, corners, uvs, abs(light.brightness(normal)))
+            repeated = [(repeat * u, repeat * v) for u, v in uvs]
+            draw(seen, zbuffer, corners, repeated, light.lit(normal))
 
     def as_color(u, v, _):
         return int(255 * (u % 1)), int(255 * (v % 1)), 90

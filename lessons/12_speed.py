@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import engine3d as e3d
-from lesson import FOLDER, MODELS, blank, earlier, magnify, main
+from lesson import DIFFER, FOLDER, MODELS, blank, earlier, magnify, main, told
 
 wireframe = earlier("04_wireframe")
 triangles = earlier("05_triangles")
@@ -69,10 +69,12 @@ def measure():
         print(f"{backend:<10}{rate:8.0f} frames per second, {same} picture")
 
 
-def steps(width=48, height=24):
-    inside = set(triangles.edge_functions(*CORNERS))
+def steps(width=48, height=24, percent=100):
+    """Visit the pixels of a triangle; percent: of its size."""
+    corners = [tuple(part * percent / 100 for part in corner) for corner in CORNERS]
+    inside = set(triangles.edge_functions(*corners))
     for lanes in (1, 4, 8, 16):
-        pixels = visited(CORNERS, lanes)
+        pixels = visited(corners, lanes)
         picture = blank(width, height)
         for x, y in pixels:
             if x >= width:
@@ -80,8 +82,9 @@ def steps(width=48, height=24):
             picture[y, x] = USEFUL if (x, y) in inside else WASTED
             if x % lanes == 0 and lanes > 1:
                 picture[y, x] = picture[y, x] * 0.8
-        caption = f"{lanes} at a time: {len(pixels) // lanes} steps"
-        yield f"{caption}, {len(pixels) - len(inside)} pixels in vain", magnify(picture, 5)
+        caption = "{lanes} at a time: {steps} steps, {vain:no pixel|# pixel|# pixels} in vain"
+        counts = {"steps": len(pixels) // lanes, "vain": len(pixels) - len(inside)}
+        yield told(caption, lanes=lanes, **counts), magnify(picture, 5)
 
     size = width * 5, height * 7
     view = wireframe.engine_view(TEAPOT, *size)
@@ -93,7 +96,8 @@ def steps(width=48, height=24):
     ]
     other = int((frames[0] != frames[1]).any(axis=2).sum())
     yield "the engine, one lane and one thread", frames[0][:, :, :3]
-    yield f"the engine, all lanes and threads: {other} pixels differ", frames[1][:, :, :3]
+    caption = told("the engine, all lanes and threads: " + DIFFER, differ=other)
+    yield caption, frames[1][:, :, :3]
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import engine3d as e3d
-from lesson import FOLDER, MODELS, blank, earlier, main
+from lesson import DIFFER, FOLDER, MODELS, blank, earlier, main, told
 
 lists = earlier("01_lists")
 points = earlier("02_points")
@@ -91,9 +91,9 @@ def measure():
             print(subprocess.check_output([program], text=True), end="")
 
 
-def steps(width=240, height=180, model=TEAPOT):
+def steps(width=240, height=180, model=TEAPOT, yaw=0.7):
     vertices = lists.read_lists(model)["v"]
-    turns = [(e3d.linalg.cos(angle), e3d.linalg.sin(angle)) for angle in (0.4, 0.7, 0.25)]
+    turns = [(e3d.linalg.cos(angle), e3d.linalg.sin(angle)) for angle in (0.4, yaw, 0.25)]
     turned = [all_three(vertex, turns) for vertex in vertices]
     scale, middle = points.fit([way[0] for way in turned], width, height)
     sets = []
@@ -104,7 +104,8 @@ def steps(width=240, height=180, model=TEAPOT):
             points.put_point(picture, *place, color)
         sets.append((picture != blank(width, height)).any(axis=2))
         other = int((sets[0] != sets[-1]).sum())
-        yield f"{name} multiplications: {other} pixels differ from the first", picture
+        caption = "{number} multiplications: " + DIFFER + " from the first"
+        yield told(caption, number=name, differ=other), picture
 
 
 if __name__ == "__main__":

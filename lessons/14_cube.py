@@ -1,6 +1,6 @@
 """The cube: its 8 vertices, 12 edges and 6 faces from the bits of three numbers."""
 
-from lesson import blank, earlier, main
+from lesson import blank, earlier, main, told
 
 points = earlier("02_points")
 lines = earlier("03_lines")
@@ -74,8 +74,8 @@ def draw_faces(picture, screen):
             faces_of.fill(picture, (a, c, d), tint)
 
 
-def steps(width=200, height=160):
-    screen = faces_of.on_screen(wireframe.turn(vertices(), 0.6, 0.45), width, height)
+def steps(width=200, height=160, yaw=0.6):
+    screen = faces_of.on_screen(wireframe.turn(vertices(), yaw, 0.45), width, height)
     picture = blank(width, height)
     for corner, (x, y, _) in enumerate(screen):
         for dx in range(-2, 3):
@@ -88,17 +88,20 @@ def steps(width=200, height=160):
     yield "12 edges: numbers that differ in one bit; dark ones are hidden", picture
     picture = blank(width, height)
     draw_edges(picture, screen, show_hidden=False)
-    yield f"the {sum(visible_edges(screen))} that faces do not hide", picture
+    caption = told("the {count} that faces do not hide", count=sum(visible_edges(screen)))
+    yield caption, picture
     picture = blank(width, height)
     draw_faces(picture, screen)
-    yield "6 faces, of which 3 look at us", picture
+    seen = sum(facing(screen))
+    caption = "6 faces, of which {seen:none looks|# looks|# look} at us"
+    yield told(caption, seen=seen), picture
     for quarter in (1, 2, 3):
-        turned = wireframe.turn(vertices(), 0.6 + 0.4 * quarter, 0.45)
+        turned = wireframe.turn(vertices(), yaw + 0.4 * quarter, 0.45)
         screen = faces_of.on_screen(turned, width, height)
         picture = blank(width, height)
         draw_faces(picture, screen)
         draw_edges(picture, screen, show_hidden=True)
-        yield f"turned {quarter} times", picture
+        yield told("turned {times:never|once|# times}", times=quarter), picture
 
 
 if __name__ == "__main__":

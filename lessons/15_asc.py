@@ -3,7 +3,7 @@
 import re
 
 import engine3d as e3d
-from lesson import FOLDER, MODELS, blank, earlier, main, text
+from lesson import FOLDER, MODELS, blank, earlier, listing, main, told
 
 points = earlier("02_points")
 lines = earlier("03_lines")
@@ -46,12 +46,9 @@ def upright(vertices):
     return [(x, z, -y) for x, y, z in vertices]
 
 
-def draw_objects(objects, width, height, flagged):
+def draw_objects(objects, width, height, flagged, yaw=wireframe.YAW):
     """Return a picture of all edges, and their number."""
-    turned = [
-        wireframe.turn(upright(vertices), wireframe.YAW, wireframe.PITCH)
-        for _, vertices, _ in objects
-    ]
+    turned = [wireframe.turn(upright(vertices), yaw, wireframe.PITCH) for _, vertices, _ in objects]
     scale, middle = points.fit([v for vertices in turned for v in vertices], width, height)
     picture, count = blank(width, height), 0
     for vertices, (_, _, faces) in zip(turned, objects, strict=True):
@@ -64,23 +61,25 @@ def draw_objects(objects, width, height, flagged):
     return picture, count
 
 
-def steps(width=240, height=180, model=TRAIN):
+def steps(width=240, height=180, model=TRAIN, yaw=wireframe.YAW):
     rows = HOUSE.read_text(encoding="latin-1").splitlines()
     shown = [*rows[2:6], "...", *rows[15:19], "..."]
-    yield "a file in this format", text(shown, 320, height)
+    yield "a file in this format", listing(shown)
 
     house = read_asc(HOUSE)
-    picture, count = draw_objects(house, width, height, flagged=False)
-    yield f"all {count} edges of the triangles", picture
-    picture, count = draw_objects(house, width, height, flagged=True)
+    picture, count = draw_objects(house, width, height, False, yaw)
+    yield told("all {count} edges of the triangles", count=count), picture
+    picture, count = draw_objects(house, width, height, True, yaw)
     engine = len(e3d.load_mesh(HOUSE).edges())
-    yield f"the {count} whose flag is 1; the engine finds {engine}", picture
+    caption = "the {count} whose flag is 1; the engine finds {found}"
+    yield told(caption, count=count, found=engine), picture
 
     objects = read_asc(model)
-    picture, count = draw_objects(objects, width, height, flagged=False)
-    yield f"{len(objects)} objects, all {count} edges", picture
-    picture, count = draw_objects(objects, width, height, flagged=True)
-    yield f"the {count} edges of the model", picture
+    picture, count = draw_objects(objects, width, height, False, yaw)
+    caption = "{objects:no object|# object|# objects}, all {count} edges"
+    yield told(caption, objects=len(objects), count=count), picture
+    picture, count = draw_objects(objects, width, height, True, yaw)
+    yield told("the {count} edges of the model", count=count), picture
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import numpy as np
 
 import engine3d as e3d
-from lesson import blank, earlier, main
+from lesson import blank, earlier, main, told
 
 lines = earlier("03_lines")
 triangles = earlier("05_triangles")
@@ -15,18 +15,18 @@ LINE = (255, 200, 0)
 LIGHT, DARK = (236, 232, 222), (64, 84, 120)
 
 
-def screen_distance(height):
+def screen_distance(height, yfov=YFOV):
     """Return how far in front of the eye a screen of `height` pixels fills the field of view."""
-    return height / 2 / e3d.linalg.tan(YFOV / 2)
+    return height / 2 / e3d.linalg.tan(yfov / 2)
 
 
-def project(point, width, height):
+def project(point, width, height, yfov=YFOV):
     """Return where the ray from the eye to a point meets the virtual screen: x, y and 1/z.
 
     The eye is the origin and looks along -z.
     """
     x, y, z = point
-    scale = screen_distance(height) / -z
+    scale = screen_distance(height, yfov) / -z
     return width / 2 + scale * x, height / 2 - scale * y, 1 / -z
 
 
@@ -50,10 +50,10 @@ def checker(u, v):
     return LIGHT if (u // 1 + v // 1) % 2 else DARK
 
 
-def draw_polygon(picture, polygon, corrected):
+def draw_polygon(picture, polygon, corrected, yfov=YFOV):
     """Fill a fan of triangles with a chess board: u and v as they are, or divided by z."""
     height, width = picture.shape[:2]
-    corners = [(*project(corner[:3], width, height), *corner[3:]) for corner in polygon]
+    corners = [(*project(corner[:3], width, height, yfov), *corner[3:]) for corner in polygon]
     for k in range(1, len(corners) - 1):
         three = corners[0], corners[k], corners[k + 1]
         places = [corner[:3] for corner in three]
@@ -72,15 +72,15 @@ def floor(near, far):
     return [(x, -1.0, z, x, -z) for x, z in ((-3, near), (3, near), (3, far), (-3, far))]
 
 
-def draw_cubes(width, height, perspective):
+def draw_cubes(width, height, perspective, yfov=YFOV):
     """Draw the edges of three cubes, one behind the other."""
     picture = blank(width, height)
     for z in (-3.0, -5.0, -9.0):
         moved = [(x + 0.8, y - 0.8, z + part) for x, y, part in cube.vertices()]
         if perspective:
-            screen = [project(point, width, height) for point in moved]
+            screen = [project(point, width, height, yfov) for point in moved]
         else:
-            scale = screen_distance(height) / 4.0
+            scale = screen_distance(height, yfov) / 4.0
             screen = [(width / 2 + scale * x, height / 2 - scale * y) for x, y, _ in moved]
         for a, b in cube.edges():
             way = lines.bresenham(*cube.pixel(screen[a]), *cube.pixel(screen[b]))
@@ -89,7 +89,7 @@ def draw_cubes(width, height, perspective):
     return picture
 
 
-def engine_floor(width, height):
+def engine_floor(width, height, yfov=YFOV):
     """Return the engine's picture of a floor that goes on behind the camera."""
     corners = np.array(floor(4.0, -12.0))
     pixels = np.array([[LIGHT, DARK], [DARK, LIGHT]], np.uint8)
@@ -99,32 +99,33 @@ def engine_floor(width, height):
     mesh = e3d.Mesh(corners[:, :3], faces, uvs=corners[:, 3:] / 2, materials=[material])
     scene = e3d.Scene(background=(30, 33, 40))
     scene.add(mesh)
-    camera = e3d.PerspectiveCamera(YFOV, znear=NEAR), np.eye(4)
+    camera = e3d.PerspectiveCamera(yfov, znear=NEAR), np.eye(4)
     return e3d.render(
         scene, camera, size=(width, height), mode="unlit", look="plain", samples=1, cull="back"
     ).color[:, :, :3]
 
 
-def steps(width=200, height=150):
-    yield "without perspective: three cubes in a row", draw_cubes(width, height, False)
-    yield "on the virtual screen: divided by z", draw_cubes(width, height, True)
+def steps(width=200, height=150, yfov=YFOV):
+    yield "without perspective: three cubes in a row", draw_cubes(width, height, False, yfov)
+    yield "on the virtual screen: divided by z", draw_cubes(width, height, True, yfov)
 
     picture = blank(width, height)
-    draw_polygon(picture, floor(-1.5, -12.0), corrected=False)
+    draw_polygon(picture, floor(-1.5, -12.0), False, yfov)
     yield "a floor, u and v mixed as on the screen: bent", picture
     picture = blank(width, height)
-    draw_polygon(picture, floor(-1.5, -12.0), corrected=True)
+    draw_polygon(picture, floor(-1.5, -12.0), True, yfov)
     yield "u/z, v/z and 1/z mixed, then divided: straight", picture
 
     picture = blank(width, height)
-    draw_polygon(picture, floor(4.0, -12.0), corrected=True)
+    draw_polygon(picture, floor(4.0, -12.0), True, yfov)
     yield "the floor goes on behind the eye: corners there are mirrored", picture
     picture = blank(width, height)
-    draw_polygon(picture, clip_near(floor(4.0, -12.0)), corrected=True)
+    draw_polygon(picture, clip_near(floor(4.0, -12.0)), True, yfov)
     yield "cut off at the near plane first", picture
-    engine = engine_floor(width, height)
+    engine = engine_floor(width, height, yfov)
     other = int((engine != picture).any(axis=2).sum())
-    yield f"the engine's: {other} of {width * height} pixels differ", engine
+    caption = "the engine's: {count:none|#|#} of {all} pixels {count:differs|differs|differ}"
+    yield told(caption, count=other, all=width * height), engine
 
 
 if __name__ == "__main__":

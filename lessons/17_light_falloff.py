@@ -5,10 +5,10 @@ import math
 import numpy as np
 
 import engine3d as e3d
-from lesson import blank, main
+from lesson import blank, main, told
 
 SIDE = 4.0  # of the floor
-LIGHT, INTENSITY = (0.6, 0.7, -0.4), 0.8
+PLACE, HEIGHT, INTENSITY = (0.6, -0.4), 0.7, 0.8
 CLAMP = (0.1, 1.0)
 COLORED = (
     ((-0.9, 0.5, 0.3), (1.0, 0.35, 0.25)),
@@ -55,24 +55,27 @@ def per_pixel(width, height, light_of):
     return picture
 
 
-def per_face(width, height, faces, limits=CLAMP):
-    """Return the floor cut into faces x faces squares, each lit at its middle."""
+def per_face(width, height, faces, lamp, limits=CLAMP):
+    """Return the floor cut into faces x faces squares, each lit at its middle.
+
+    lamp: its place, and its intensity.
+    """
     picture = blank(width, height)
     edges_x = [width * k // faces for k in range(faces + 1)]
     edges_y = [height * k // faces for k in range(faces + 1)]
     for top, bottom in zip(edges_y, edges_y[1:], strict=False):
         for left, right in zip(edges_x, edges_x[1:], strict=False):
             middle = place((left + right - 1) / 2, (top + bottom - 1) / 2, width, height)
-            value = illuminance(middle, (0.0, 1.0, 0.0), LIGHT, INTENSITY)
+            value = illuminance(middle, (0.0, 1.0, 0.0), *lamp)
             picture[top:bottom, left:right] = encode(clamp(value, *limits))
     return picture
 
 
-def white(limits):
+def white(limits, lamp):
     """Return a function from a point to its grey, with or without limits."""
 
     def light_of(point):
-        value = illuminance(point, (0.0, 1.0, 0.0), LIGHT, INTENSITY)
+        value = illuminance(point, (0.0, 1.0, 0.0), *lamp)
         return encode(clamp(value, *limits) if limits else value)
 
     return light_of
@@ -87,11 +90,12 @@ def colored(point):
     return [encode(clamp(total, *CLAMP)) for total in sums]
 
 
-def engine_floor(width, height, segments=1, normals="auto"):
+def engine_floor(width, height, lamp, segments=1, normals="auto"):
     """Return the engine's picture of the floor under the white light."""
     scene = e3d.Scene(background=(0, 0, 0), ambient=(0, 0, 0), light_clamp=CLAMP)
     scene.add(e3d.plane((SIDE * width / height, SIDE), segments))
-    scene.add(e3d.PointLight(intensity=math.pi * INTENSITY), translation=LIGHT)
+    place, intensity = lamp
+    scene.add(e3d.PointLight(intensity=math.pi * intensity), translation=place)
     camera = e3d.OrthographicCamera(SIDE / 2), e3d.look_at((0, 5, 0), (0, 0, 0), (0, 0, -1))
     how = {"color_space": "linear", "normals": normals}
     frame = e3d.render(
@@ -100,16 +104,20 @@ def engine_floor(width, height, segments=1, normals="auto"):
     return frame.color[:, :, :3]
 
 
-def steps(width=180, height=132):
-    yield "one E for each of 6 x 6 faces", per_face(width, height, 6)
-    yield "24 x 24 faces", per_face(width, height, 24)
-    yield "more than 1 does not fit into a byte: it wraps", per_pixel(width, height, white(None))
-    picture = per_pixel(width, height, white(CLAMP))
-    yield f"one E for each pixel, between {CLAMP[0]} and {CLAMP[1]}", picture
-    engine = engine_floor(width, height)
-    off = np.abs(engine.astype(int) - picture).max()
-    yield f"the engine's: off by {off} at most", engine
-    faceted = engine_floor(width, height, 6, "facet")
+def steps(width=180, height=132, lamp=HEIGHT, intensity=INTENSITY):
+    """Light a floor; lamp: how high it hangs."""
+    light = (PLACE[0], lamp, PLACE[1]), intensity
+    yield "one E for each of 6 x 6 faces", per_face(width, height, 6, light)
+    yield "24 x 24 faces", per_face(width, height, 24, light)
+    picture = per_pixel(width, height, white(None, light))
+    yield "more than 1 does not fit into a byte: it wraps", picture
+    picture = per_pixel(width, height, white(CLAMP, light))
+    caption = told("one E for each pixel, between {low} and {high:g}", low=CLAMP[0], high=CLAMP[1])
+    yield caption, picture
+    engine = engine_floor(width, height, light)
+    off = int(np.abs(engine.astype(int) - picture).max())
+    yield told("the engine's: {off:the same|off by # at most|off by # at most}", off=off), engine
+    faceted = engine_floor(width, height, light, 6, "facet")
     yield "the engine's, one E for each of 72 triangles", faceted
     yield "three lights add up", per_pixel(width, height, colored)
 

@@ -1,7 +1,7 @@
 """Making shapes: quads, boxes from eight points, spheres of meridians and parallels."""
 
 import engine3d as e3d
-from lesson import blank, earlier, main
+from lesson import DIFFER, blank, earlier, main, told
 
 wireframe = earlier("04_wireframe")
 faces_of = earlier("06_random_colors")
@@ -72,7 +72,8 @@ def draw(shape, width, height, by_diagonals=False):
     return picture
 
 
-def steps(width=200, height=160):
+def steps(width=200, height=160, wedges=32):
+    """Draw shapes; wedges: of the finest sphere."""
     bent = quad((-1.0, -0.6, 0.3), (1.0, -0.6, -0.3), (1.0, 0.6, 0.3), (-1.0, 0.6, -0.3))
     yield "a quad is two triangles: bent, they have two normals", draw(bent, width, height)
     yield "one normal across both diagonals: one even shade", draw(bent, width, height, True)
@@ -84,13 +85,15 @@ def steps(width=200, height=160):
     engine = e3d.primitives.hexahedron([tower[number] for number in (0, 1, 3, 2, 4, 5, 7, 6)])
     theirs = draw((engine.positions.tolist(), engine.faces.tolist()), width, height)
     other = int((picture != theirs).any(axis=2).sum())
-    yield f"any 8 points; {other} pixels differ from the engine's hexahedron", picture
-    for segments, rings in ((6, 3), (12, 6), (32, 16)):
+    caption = "any 8 points; " + DIFFER + " from the engine's hexahedron"
+    yield told(caption, differ=other), picture
+    for segments, rings in ((6, 3), (12, 6), (wedges, wedges // 2)):
         shape = sphere(1.0, segments, rings)
         triangles = sum(len(face) - 2 for face in shape[1])
         engine = len(e3d.uv_sphere(1.0, (segments, rings)).faces)
-        caption = f"{segments} x {rings}: {triangles} triangles, the engine's has {engine}"
-        yield caption, draw(shape, width, height, True)
+        caption = "{wedges} x {bands}: {triangles} triangles, the engine's has {engine}"
+        counts = {"wedges": segments, "bands": rings, "triangles": triangles, "engine": engine}
+        yield told(caption, **counts), draw(shape, width, height, True)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 import engine3d as e3d
-from lesson import blank, earlier, main
+from lesson import blank, earlier, main, told
 
 lines = earlier("03_lines")
 # Each letter is a square of one metre: wall, floor, water, a step, a platform too high to climb.
@@ -65,21 +65,21 @@ def sample_ground(x, z):
     return HEIGHTS[letter], letter
 
 
-def can_stand(x, z, height):
+def can_stand(x, z, height, step=STEP):
     """Whether there is ground that carries, all around, at most a step higher or lower."""
     for dx in (-RADIUS, RADIUS):
         for dz in (-RADIUS, RADIUS):
             ground, letter = sample_ground(x + dx, z + dz)
-            if letter == "~" or abs(ground - height) > STEP:
+            if letter == "~" or abs(ground - height) > step:
                 return False
     return True
 
 
-def walk(x, z, dx, dz):
+def walk(x, z, dx, dz, step=STEP):
     """Go by (dx, dz); where that is blocked, along what blocks the way."""
     height, _ = sample_ground(x, z)
     for step_x, step_z in ((dx, dz), (dx, 0.0), (0.0, dz)):
-        if can_stand(x + step_x, z + step_z, height):
+        if can_stand(x + step_x, z + step_z, height, step):
             return x + step_x, z + step_z
     return x, z
 
@@ -93,14 +93,14 @@ def direction(yaw):
 ROUTE = ((4.0, 0), (3.0, -90), (2.0, -90), (5.5, 90), (3.5, 90), (3.0, 90))
 
 
-def follow(route, x, z, pace=0.1):
+def follow(route, x, z, step=STEP, pace=0.1):
     """Return all places on a route, and the yaw at each."""
     yaw, places = 0.0, [(x, z, 0.0)]
     for metres, degrees in route:
         yaw += math.radians(degrees)
         ahead = direction(yaw)
         for _ in range(round(metres / pace)):
-            x, z = walk(x, z, pace * ahead[0], pace * ahead[1])
+            x, z = walk(x, z, pace * ahead[0], pace * ahead[1], step)
             places.append((x, z, yaw))
     return places
 
@@ -133,11 +133,11 @@ def build_scene():
     return scene
 
 
-def engine_path(scene, route, x, z):
+def engine_path(scene, route, x, z, step=STEP):
     """Return the path of the engine's walker on the same route."""
     walkable = set(HEIGHTS) - {"~"}
     grid = e3d.navigation.NavigationGrid(
-        scene, cell=0.1, walkable=walkable, step=STEP, radius=RADIUS
+        scene, cell=0.1, walkable=walkable, step=step, radius=RADIUS
     )
     walker = e3d.navigation.Walker(grid, x, z, y=0.0, eye_height=EYES)
     yaw, places = 0.0, [(x, z, 0.0)]
@@ -163,22 +163,22 @@ def view(scene, place, width, height):
     return e3d.render(scene, (camera, pose), size=(width, height), **EXACT).color[:, :, :3]
 
 
-def steps(width=240, height=180):
+def steps(width=240, height=180, step=STEP):
+    """Walk over a map; step: how high one climbs at once, in metres."""
     start = 1.5, 6.5
-    places = follow(ROUTE, *start)
+    places = follow(ROUTE, *start, step)
     scene = build_scene()
     yield "a map, and the path of one who walks", from_above(places, width, height)
     for number in (0, 44, 92, 183):
         x, z, _ = places[number]
-        yield (
-            f"after {number} steps, at ({x:.1f}, {z:.1f})",
-            view(scene, places[number], width, height),
-        )
-    theirs = engine_path(scene, ROUTE, *start)
+        caption = "after {count:no step|# step|# steps}, at x = {x:.1f}, z = {z:.1f}"
+        yield told(caption, count=number, x=x, z=z), view(scene, places[number], width, height)
+    theirs = engine_path(scene, ROUTE, *start, step)
     away = max(
         math.hypot(x - a, z - b) for (x, z, _), (a, b, _) in zip(places, theirs, strict=True)
     )
-    yield f"the engine's Walker: {away:.2f} m from there at most", from_above(theirs, width, height)
+    caption = told("the engine's Walker: {away:.2f} m from there at most", away=away)
+    yield caption, from_above(theirs, width, height)
 
 
 if __name__ == "__main__":

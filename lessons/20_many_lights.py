@@ -5,14 +5,14 @@ import time
 import numpy as np
 
 import engine3d as e3d
-from lesson import earlier, main
+from lesson import DIFFER, earlier, main, told
 
 gray = earlier("10_zbuffer").gray
 LIGHTS, BALLS = 256, 24
 RANGE = 0.55
 
 
-def make_scene(width, height, seed=4):
+def make_scene(width, height, lights=LIGHTS, seed=4):
     """Return balls before a wall (x, y, z, radius, colour) and lights (x, y, z, colour)."""
     random = np.random.default_rng(seed)
     aspect = width / height
@@ -21,7 +21,8 @@ def make_scene(width, height, seed=4):
         for color in random.uniform(0.35, 1.0, (BALLS, 3))
     ]
     places = random.uniform((-aspect, -1, 0.1), (aspect, 1, 1.6), (LIGHTS, 3))
-    return balls, list(zip(places, random.uniform(0.1, 1.0, (LIGHTS, 3)), strict=True))
+    colors = random.uniform(0.1, 1.0, (LIGHTS, 3))
+    return balls, list(zip(places, colors, strict=True))[:lights]
 
 
 def grid(width, height):
@@ -139,20 +140,21 @@ def measure():
     print("the engine's pictures are the same" if same else "the engine's pictures differ")
 
 
-def steps(width=160, height=120):
-    scene = make_scene(width, height)
+def steps(width=160, height=120, lights=LIGHTS):
+    scene = make_scene(width, height, lights)
     buffers = g_buffer(scene, width, height)
     depth, normal, albedo = buffers
     as_color = np.floor(127.5 * normal + 127.5).astype(np.uint8)
     yield "the G-buffer: depth, normal, albedo", gray(depth), as_color, picture(albedo)
-    for count in (1, 16, LIGHTS):
+    for count in (1, 16, lights):
         color, _ = deferred(buffers, scene[1][:count])
-        yield f"deferred, {count} light{'s' * (count > 1)}", picture(color)
+        yield told("deferred, {count:no light|# light|# lights}", count=count), picture(color)
     shaded, all_pixels = deferred(buffers, scene[1])
     color, count = forward(scene, width, height)
     other = int((picture(color) != picture(shaded)).any(axis=2).sum())
-    saved = f"{count} shadings instead of {all_pixels}"
-    yield f"forward, {LIGHTS} lights: {saved}; {other} pixels differ", picture(color)
+    caption = "forward, {lights} lights: {count} shadings instead of {all}; " + DIFFER
+    counts = {"lights": lights, "count": count, "all": all_pixels, "differ": other}
+    yield told(caption, **counts), picture(color)
 
 
 if __name__ == "__main__":

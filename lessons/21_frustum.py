@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 import engine3d as e3d
-from lesson import blank, earlier, main
+from lesson import blank, earlier, main, told
 
 lines = earlier("03_lines")
 random_colors = earlier("06_random_colors")
@@ -117,15 +117,15 @@ def by_corners(planes, low, high):
     return False
 
 
-def draw(chunks, width, height, eye=EYE, color_of=lambda number: (255, 255, 255)):
+def draw(chunks, size, eye=EYE, lens=CAMERA, color_of=lambda number: (255, 255, 255)):
     """Return the engine's picture of some chunks, and its counts."""
     scene = e3d.Scene(background=(30, 33, 40), ambient=e3d.linear(0.25, 0.25, 0.3))
     scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.5), intensity=0.6 * math.pi))
     for number, (mesh, _, _) in enumerate(chunks):
         mesh.materials = [e3d.Material(color=color_of(number))]
         scene.add(mesh)
-    camera = CAMERA, e3d.look_at(eye, TARGET)
-    frame = e3d.render(scene, camera, size=(width, height), look="plain", samples=1, cull="back")
+    camera = lens, e3d.look_at(eye, TARGET)
+    frame = e3d.render(scene, camera, size=size, look="plain", samples=1, cull="back")
     return frame.color[:, :, :3], frame.stats
 
 
@@ -134,14 +134,17 @@ def to_map(point, height):
     return int(height / 2 + scale * point[0]), int(height / 2 + scale * point[2])
 
 
-def from_above(chunks, kept, needed, height, width, eye=EYE):
-    """Draw the chunks from above: kept, left out, or left out though they are needed."""
+def from_above(chunks, kept, needed, height, matrix, eye=EYE):
+    """Draw the chunks from above: kept, left out, or left out though they are needed.
+
+    matrix: clip-from-world of the camera.
+    """
     picture = blank(height, height)
     for (_, low, high), keep, need in zip(chunks, kept, needed, strict=True):
         (left, top), (right, bottom) = to_map(low, height), to_map(high, height)
         color = KEPT if keep else WRONG if need else LEFT_OUT
         picture[top : bottom - 1, left : right - 1] = color
-    matrix = e3d.linalg.inverse(clip_from_world(width, height, eye=eye))
+    matrix = e3d.linalg.inverse(matrix)
     start = to_map(eye, height)
     for x in (-1.0, 1.0):
         far = e3d.linalg.transform_points(matrix, (x, 0.0, 0.98))
@@ -151,12 +154,14 @@ def from_above(chunks, kept, needed, height, width, eye=EYE):
     return picture
 
 
-def steps(width=240, height=180, model=None, chunk=None):
+def steps(width=240, height=180, model=None, chunk=None, yfov=0.7):
     """Cut the town, or a model, into chunks of three sizes.
 
     chunk: the side of the smallest chunks of a model, in its units; a 24th of it if left out.
+    yfov: field of view of the camera, in radians.
     """
-    eye, scale = EYE, 1
+    eye, scale, size = EYE, 1, (width, height)
+    lens = e3d.PerspectiveCamera(yfov, znear=0.1, zfar=60.0)
     if model is None:
         town = buildings()
         sides = [8, 4, 2]
@@ -167,8 +172,9 @@ def steps(width=240, height=180, model=None, chunk=None):
         smallest = CELLS / 24 if chunk is None else chunk * scale
         sides = [4 * smallest, 2 * smallest, smallest]
         chunks_of = {side: cut(mesh, side) for side in sides}
-    planes = planes_of(clip_from_world(width, height, eye=eye))
-    everything, _ = draw(chunks_of[sides[0]], width, height, eye)
+    matrix = clip_from_world(width, height, lens, eye)
+    planes = planes_of(matrix)
+    everything, _ = draw(chunks_of[sides[0]], size, eye, lens)
     for side, test, name in (
         (sides[0], by_center, "the centre"),
         (sides[0], by_corners, "the corners"),
@@ -178,19 +184,21 @@ def steps(width=240, height=180, model=None, chunk=None):
         kept = [test(planes, low, high) for _, low, high in chunks]
         needed = [by_p_vertex(planes, low, high) for _, low, high in chunks]
         chosen = [chunk for chunk, keep in zip(chunks, kept, strict=True) if keep]
-        picture, _ = draw(chosen, width, height, eye)
+        picture, _ = draw(chosen, size, eye, lens)
         lost = int((picture != everything).any(axis=2).sum())
         triangles = sum(len(mesh.faces) for mesh, _, _ in chosen)
-        size = f"{side / scale:g} x {side / scale:g}"
-        caption = f"chunks of {size} by {name}: {len(chosen)} of {len(chunks)}"
-        overview = from_above(chunks, kept, needed, height, width, eye)
-        yield f"{caption}, {triangles} triangles; {lost} pixels lost", picture, overview
+        counts = {"side": side / scale, "kept": len(chosen), "all": len(chunks)}
+        caption = "chunks of {side:g} x {side:g} by " + name + ": {kept} of {all}, {triangles} "
+        caption += "triangles; {lost:no pixel|# pixel|# pixels} lost"
+        overview = from_above(chunks, kept, needed, height, matrix, eye)
+        yield told(caption, **counts, triangles=triangles, lost=lost), picture, overview
     chunks = chunks_of[sides[-1]]
-    picture, stats = draw(chunks, width, height, eye)
-    found = f"{stats['nodes_in_frustum']} of {len(chunks)} chunks"
-    yield f"the engine, too, finds {found} in the frustum", picture
-    picture, _ = draw(chunks, width, height, eye, random_colors.random_color)
-    yield f"cut into {len(chunks)} chunks of {size}, a colour each", picture
+    picture, stats = draw(chunks, size, eye, lens)
+    caption = "the engine, too, finds {found} of {all} chunks in the frustum"
+    yield told(caption, found=stats["nodes_in_frustum"], all=len(chunks)), picture
+    picture, _ = draw(chunks, size, eye, lens, random_colors.random_color)
+    caption = "cut into {all} chunks of {side:g} x {side:g}, a colour each"
+    yield told(caption, all=len(chunks), side=side / scale), picture
 
 
 if __name__ == "__main__":

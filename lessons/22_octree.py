@@ -3,7 +3,7 @@
 import numpy as np
 
 import engine3d as e3d
-from lesson import blank, earlier, main
+from lesson import blank, earlier, main, told
 
 lines = earlier("03_lines")
 frustum = earlier("21_frustum")
@@ -53,13 +53,14 @@ class Cell:
 class Octree:
     """Things with a place and a radius, each in the smallest cell that is as large as it is."""
 
-    def __init__(self):
+    def __init__(self, deepest=DEEPEST):
+        self.deepest = deepest
         self.root = Cell([0.0, 0.0, 0.0], SIZE / 2)
         self.cell_of = {}
 
     def insert(self, thing, place, radius):
         cell = self.root
-        for _ in range(DEEPEST):
+        for _ in range(self.deepest):
             if radius > cell.half / 2:
                 break
             cell = cell.child_for(place)
@@ -166,22 +167,26 @@ def from_above(tree, places, found, asked, side):
     return picture
 
 
-def steps(width=220, height=220):
+def steps(width=220, height=220, deepest=DEEPEST):
+    """Find moving balls in a tree; deepest: how often a cell is divided at most."""
     places, speeds, radii = make_things()
-    tree = Octree()
+    tree = Octree(deepest)
     for thing in range(THINGS):
         tree.insert(thing, places[thing], radii[thing])
     planes = frustum.planes_of(frustum.clip_from_world(width, height, LENS))
-    yield f"{THINGS} balls in an octree, from above", from_above(tree, places, [], [], height)
+    caption = told("{count} balls in an octree, from above", count=THINGS)
+    yield caption, from_above(tree, places, [], [], height)
     changed = 0
     for time in range(41):
         if time in (0, 20, 40):
             found, asked, tests = tree.find(planes, places, radii)
             without = [t for t in range(THINGS) if in_frustum(planes, places[t], radii[t])]
-            same = "the same" if found == without else "OTHER"
+            same = "the same" if found == without else "others"
             picture = from_above(tree, places, found, asked, height)
-            caption = f"time {time}: {len(found)} seen by {tests} tests, {same} as by {THINGS};"
-            yield f"{caption} {changed} changes of cell", picture
+            caption = "time {time}: {seen} seen by {tests} tests, {same} as by {all}; "
+            caption += "{changed:no change|# change|# changes} of cell"
+            counts = {"seen": len(found), "tests": tests, "all": THINGS, "changed": changed}
+            yield told(caption, time=time, same=same, **counts), picture
         advance(places, speeds)
         for thing in range(THINGS):
             changed += tree.move(thing, places[thing], radii[thing])

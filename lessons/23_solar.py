@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import engine3d as e3d
-from lesson import MODELS, main
+from lesson import MODELS, main, told
 
 multiply = e3d.linalg.multiply
 TEAPOT = MODELS / "teapot.obj"
@@ -143,20 +143,22 @@ def share():
     print(f"kept when nobody holds it: {len(resources.known)}")
 
 
-def steps(width=240, height=150):
-    system = make_system()
-    for days in (0.0, 40.0, 80.0, 120.0, 200.0):
+def steps(width=240, height=150, days=40):
+    """Show the system on five days; days: from one to the next."""
+    system, apart = make_system(), days
+    for days in (0.0, 1.0 * apart, 2.0 * apart, 3.0 * apart, 5.0 * apart):
         Node.products = 0
         seek(system, days)
         poses = {name: system[name].world_matrix() for name in BALLS}
         worst = max(np.abs(poses[name] - pose).max() for name, pose in engine_poses(days).items())
-        caption = f"day {days:.0f}: {Node.products} products of matrices"
+        caption = "day {day:.0f}: {count} products of matrices; the engine's poses {agree}"
         agrees = "agree" if worst < 1e-12 else "differ"
-        yield f"{caption}; the engine's poses {agrees}", draw(poses, width, height)
+        caption = told(caption, day=days, count=Node.products, agree=agrees)
+        yield caption, draw(poses, width, height)
     Node.products = 0
     system["moon orbit"].set(turn=1.0)
     poses = {name: system[name].world_matrix() for name in BALLS}
-    caption = f"only the moon moved: {Node.products} products"
+    caption = told("only the moon moved: {count} products", count=Node.products)
     yield caption, draw(poses, width, height)
 
 

@@ -6,7 +6,7 @@ import time
 import numpy as np
 
 import engine3d as e3d
-from lesson import blank, main
+from lesson import DIFFER, blank, main, told
 
 WALL_Z = 2.0
 COLORS = ((110, 190, 110), (90, 150, 230), (255, 200, 0), (240, 110, 90))
@@ -71,8 +71,8 @@ def occlusion(width, height):
         node.visible = True
     every = e3d.render(scene, (camera, pose), size=(width, height), **EXACT).color
     other = int((some != every).any(axis=2).sum())
-    caption = f"{kept} of {len(nodes)} boxes may show; {other} pixels differ from all of them"
-    yield caption, some[:, :, :3]
+    caption = "{kept} of {all} boxes may show; " + DIFFER + " from all of them"
+    yield told(caption, kept=kept, all=len(nodes), differ=other), some[:, :, :3]
 
 
 def level_of(distance, radius, yfov, height, errors, pixels=0.3):
@@ -82,7 +82,7 @@ def level_of(distance, radius, yfov, height, errors, pixels=0.3):
     return fitting[-1] if fitting else 0
 
 
-def levels(width, height):
+def levels(width, height, pixels=0.3):
     """Draw balls in the detail that their distance needs, a colour for each level."""
     # How far a sphere of so many segments is from the true one, for radius 1.
     segments = (24, 16, 12, 8)
@@ -97,14 +97,15 @@ def levels(width, height):
         for column in range(-3, 4):
             place = np.array((2.6 * column, 0.0, -4.0 * row))
             distance = float(np.sqrt(((place - (0.0, 5.0, 10.0)) ** 2).sum()))
-            level = level_of(distance, 1.0, 0.8, height, errors)
+            level = level_of(distance, 1.0, 0.8, height, errors, pixels)
             scene.add(meshes[level], translation=place)
             triangles += len(meshes[level].faces)
             full += len(meshes[0].faces)
     camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=100.0)
     pose = e3d.look_at((0.0, 5.0, 10.0), (0.0, 0.0, -8.0))
     frame = e3d.render(scene, (camera, pose), size=(width, height), **EXACT)
-    yield f"levels of detail: {triangles} triangles instead of {full}", frame.color[:, :, :3]
+    caption = "levels of detail: {triangles} triangles instead of {full}"
+    yield told(caption, triangles=triangles, full=full), frame.color[:, :, :3]
 
 
 def due(number, frame, distance, full_rate):
@@ -128,7 +129,8 @@ def update_rate(side, frames=16):
         bright = 60 + 195 * count // frames
         picture[row : row + 4, column : column + 4] = (bright, bright * 4 // 5, 40)
     picture[side // 2 - 2 : side // 2 + 2, side // 2 - 2 : side // 2 + 2] = (90, 150, 255)
-    yield f"updates: {moves} moves in {frames} frames instead of {400 * frames}", picture
+    caption = "updates: {moves} moves in {frames} frames instead of {all}"
+    yield told(caption, moves=moves, frames=frames, all=400 * frames), picture
 
 
 def many(width, height, count=12):
@@ -155,8 +157,8 @@ def batching(width, height):
         frame = e3d.render(scene, camera, size=(width, height), **EXACT, batching=batched)
         first = frame.color if first is None else first
         other = int((first != frame.color).any(axis=2).sum())
-        caption = f"{name}: {frame.stats['draws']} draws; {other} pixels differ"
-        yield caption, frame.color[:, :, :3]
+        caption = name + ": {draws:no draw|# draw|# draws}; " + DIFFER
+        yield told(caption, draws=frame.stats["draws"], differ=other), frame.color[:, :, :3]
 
 
 def measure():
@@ -175,10 +177,11 @@ def measure():
             print(f"{name:<12}{100 * (time.perf_counter() - start):8.2f} ms per frame")
 
 
-def steps(width=240, height=176):
+def steps(width=240, height=176, pixels=0.3):
+    """Draw four ways to do less; pixels: the error that a level of detail may show."""
     width, height = width // 8 * 8, height // 8 * 8  # whole cells of the coarse buffer
     yield from occlusion(width, height)
-    yield from levels(width, height)
+    yield from levels(width, height, pixels)
     yield from update_rate(height)
     yield from batching(width, height)
 

@@ -24,12 +24,13 @@ from importlib.resources import files
 
 sys.path.insert(0, str(files("engine3d.lessons")))  # where the lessons find each other"""
 SHOW = """\
-from lesson import block
+from lesson import block, captions_of
 
 import engine3d as e3d
 
-for step in steps():
-    display(e3d.Canvas(block(*step)).image())"""
+caption_of = captions_of("{name}", "{language}")
+for caption, *shown in steps():
+    display(e3d.Canvas(block(caption_of(caption), *shown)).image())"""
 
 
 def chunks_of(program: str) -> list[str]:
@@ -58,8 +59,11 @@ def explained(section: str) -> list[tuple[str, str, str]]:
     return list(zip(found[0::3], found[1::3], found[2::3], strict=False))
 
 
-def cells_of(page: str, program: str) -> list[tuple[str, str]]:
-    """Return the cells of a notebook: ("markdown" or "code", text)."""
+def cells_of(page: str, program: str, show: str) -> list[tuple[str, str]]:
+    """Return the cells of a notebook: ("markdown" or "code", text).
+
+    `show` is the cell that draws the steps.
+    """
     idea, middle, rest = parts_of(page)
     chunks, emitted = chunks_of(program), 0
     cells = [("markdown", idea), ("code", PREPARE)]
@@ -74,7 +78,7 @@ def cells_of(page: str, program: str) -> list[tuple[str, str]]:
             cells.append(("markdown", f"{text}```{language}\n{code}```"))
     cells += [("code", chunk) for chunk in chunks[emitted:]]
     after = re.split(r"^```\w+\n.*?^```\n", middle, flags=re.M | re.S)[-1]
-    cells += [("markdown", after), ("code", SHOW), ("markdown", rest)]
+    cells += [("markdown", after), ("code", show), ("markdown", rest)]
     return [(kind, text) for kind, text in cells if text.strip()]
 
 
@@ -82,8 +86,9 @@ def notebook(name: str, language: str) -> dict:
     """Return the notebook of a lesson as what JSON holds."""
     page = (FOLDER / language / f"{name}.md").read_text(encoding="utf-8")
     program = (COURSE["LESSONS"] / f"{name}.py").read_text(encoding="utf-8")
+    show = SHOW.format(name=name, language=language)
     cells = []
-    for number, (kind, text) in enumerate(cells_of(page, program)):
+    for number, (kind, text) in enumerate(cells_of(page, program, show)):
         cell = {"cell_type": kind, "id": f"{language}-{name}-{number}", "metadata": {}}
         cell["source"] = text.strip("\n").splitlines(keepends=True)
         if kind == "code":

@@ -1,4 +1,4 @@
-"""``engine3d learn``: which lessons there are, and what it shows and writes."""
+"""``engine3d learn``: which lessons there are, and what it shows, prints and writes."""
 
 import re
 from pathlib import Path
@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from engine3d.apps.cli import main
-from engine3d.apps.cli.commands import french_lessons, learn
-from engine3d.apps.viewer.lesson_window import LessonWindow
+from engine3d.apps.cli.commands import learn
+from engine3d.apps.learn.learn_window import LearnWindow
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 LESSONS = sorted((Path(__file__).resolve().parents[2] / "lessons").glob("[0-9][0-9]_*.py"))
@@ -17,7 +17,7 @@ def test_the_list_has_every_lesson(capsys):
     assert main(["learn", "--list"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == len(LESSONS) == 24
-    assert all(re.fullmatch(r"[ \d]\d\. \w.*[^.]", line) for line in lines)
+    assert all(re.fullmatch(r"\d+\. \w.*[^.]", line) for line in lines)
 
 
 @pytest.mark.parametrize("name", ["3", "03", "lines", "03_lines"])
@@ -59,13 +59,10 @@ def test_the_language_is_that_of_the_locale(environment, language):
     assert learn.usual_language(environment) == language
 
 
-def test_french_titles_are_those_of_the_pages(capsys, monkeypatch):
-    pages = LESSONS[0].parents[1] / "docs" / "course" / "fr"
-    headings = [(pages / f"{lesson.stem}.md").read_text("utf-8") for lesson in LESSONS]
-    titles = [f"{heading.splitlines()[0].lstrip('# '):}" for heading in headings]
+def test_titles_are_in_the_language_of_the_locale(capsys, monkeypatch):
     assert main(["learn", "--list", "--language", "fr"]) == 0
     said = capsys.readouterr().out
-    assert [line.strip() for line in said.splitlines()] == titles
+    assert said.startswith("1. Un modèle, ce sont des listes\n")
     monkeypatch.setenv("LANG", "fr_FR.UTF-8")
     assert main(["learn", "--list"]) == 0
     assert capsys.readouterr().out == said
@@ -73,29 +70,27 @@ def test_french_titles_are_those_of_the_pages(capsys, monkeypatch):
     assert "A model is lists" in capsys.readouterr().out
 
 
-def test_numbers_of_a_caption_stay_in_their_order():
-    caption = "forward, 256 lights: 40188 shadings instead of 19200; 0 pixels differ"
-    french = (
-        "direct, 256 lumières : 40188 calculs d'éclairage au lieu de 19200 ; 0 pixels diffèrent"
-    )
-    assert french_lessons.caption_in_french(caption) == french
-    at = french_lessons.caption_in_french("after 44 steps, at (1.9, -2.5)")
-    assert at == "après 44 pas, en (1.9, -2.5)"
-    assert french_lessons.caption_in_french("something else") == "something else"
+def test_the_code_is_printed(capsys):
+    assert main(["learn", "lines", "--code"]) == 0
+    code = capsys.readouterr().out
+    compile(code, "lines.py", "exec")
+    assert code.startswith("def dda(")
 
 
-def test_french_texts_have_glyphs_and_as_many_numbers():
-    letters = set(map(chr, range(32, 127))) | set("àâçèéêëîïôùûœÀÇÉ")
-    for english, french in french_lessons.CAPTIONS.items():
-        assert set(french) <= letters, french
-        assert english.count("{}") == french.count("{}"), english
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("lesson", LESSONS, ids=lambda path: path.stem)
-def test_every_caption_is_known_in_french(lesson):
-    for caption, *_ in learn.steps_of(lesson):
-        assert french_lessons._NUMBER.sub("{}", caption) in french_lessons.CAPTIONS, caption
+@pytest.mark.parametrize(
+    ("program", "status", "said"),
+    [
+        ("print('of', 101, 'lines', 50)", 0, "50: Right!\n"),
+        ("print(50, 51)", 1, "51: Not yet: try again.\n"),
+        ("print('many')", 1, "That is no number.\n"),
+        ("1 / 0", 1, ""),
+    ],
+)
+def test_a_program_of_ones_own_is_checked(program, status, said, tmp_path, capfd):
+    (tmp_path / "mine.py").write_text(program)
+    assert main(["learn", "lines", "--check", "mine.py"]) == status
+    out, err = capfd.readouterr()
+    assert out == said and ("ZeroDivisionError" in err) == (said == "")
 
 
 def test_pictures_go_to_a_folder(tmp_path, capfd):
@@ -108,32 +103,31 @@ def test_pictures_go_to_a_folder(tmp_path, capfd):
     assert (tmp_path / "images" / "01_lists.png").read_bytes() != english
 
 
-def test_without_a_screen_it_says_what_else_to_do(capsys):
-    assert main(["learn", "2"]) == 1
+def test_a_page_of_html_is_written_where_it_is_asked_for(tmp_path, capsys):
+    assert main(["learn", "lists", "-o", "new/lesson.html", "--language", "fr"]) == 0
+    assert "<h1>1. Un modèle, ce sont des listes</h1>" in (tmp_path / "new/lesson.html").read_text()
+    assert capsys.readouterr() == ("", "")
+
+
+def test_without_a_screen_the_lesson_is_written_as_html(tmp_path, capsys):
+    assert main(["learn", "1"]) == 0
+    (page,) = tmp_path.iterdir()
+    assert page.suffix == ".html" and page.stem.startswith("01_lists")
     out, err = capsys.readouterr()
-    assert out == ""
-    assert err.startswith("engine3d: error: no screen") and err.count("\n") == 1
-    assert "-o FOLDER writes the pictures" in err
+    assert out == "" and err.count("\n") == 1
+    assert err.startswith("engine3d: no screen") and f"writing the lesson to {page.name}" in err
 
 
-def test_the_window_shows_the_steps(monkeypatch):
-    """On SDL's dummy driver: the first lesson is the one asked for, and all can be gone through."""
+def test_a_file_is_no_folder(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert main(["learn", "1", "-o", "file"]) == 2
+    assert "-o FOLDER or FILE.html: file is not a folder" in capsys.readouterr().err
+
+
+def test_the_window_begins_with_the_lesson_that_is_asked_for(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    seen = []
-
-    def run(window):
-        window._go_on()
-        seen.append((window._window.title, window._number, window._step, len(window._lessons)))
-        picture = window._steps[window._step]
-        seen.append((picture.shape[2], picture.std() > 1.0))
-        window._show()
-        seen.append(window._window.title)
-
-    monkeypatch.setattr(LessonWindow, "run", run)
+    titles = []
+    monkeypatch.setattr(LearnWindow, "run", lambda window: titles.append(window._window.title))
     assert main(["learn", "9"]) == 0
-    title = learn.title_of(LESSONS, 8).strip()
-    assert seen[0] == (title, 8, 1, 24) and seen[1] == (4, True)
-    assert seen[2].startswith(f"{title} - step 2")
     assert main(["learn", "9", "--language", "fr"]) == 0
-    assert seen[3][0] == "9. Le y-buffer"
-    assert seen[5] == "9. Le y-buffer - étape 2 - flèches : étapes, N P : leçons"
+    assert titles == ["9. The y-buffer", "9. Le y-buffer"]

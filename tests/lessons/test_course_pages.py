@@ -15,10 +15,8 @@ ROOT = Path(__file__).resolve().parents[2]
 LESSONS, COURSE = ROOT / "lessons", ROOT / "docs" / "course"
 make = runpy.run_path(str(COURSE / "make.py"))
 NAMES = make["lesson_names"]()
-SECTIONS = {
-    "en": ["The idea", "The program", "What to observe", "Exercises", "Terms"],
-    "fr": ["L'idée", "Le programme", "À observer", "Exercices", "Vocabulaire"],
-}
+SECTIONS = {language: list(headings.values()) for language, headings in make["HEADINGS"].items()}
+PROGRAM, TASKS = 1, 4  # of the sections
 
 
 def page(language, name):
@@ -44,10 +42,12 @@ def terms(text):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_pages_quote_the_lesson(name):
-    sources = "".join(
-        path.read_text(encoding="utf-8") for path in sorted(LESSONS.glob(f"{name}.*"))
-    )
-    found = [quotes(page(language, name)) for language in SECTIONS]
+    programs = [path for path in sorted(LESSONS.glob(f"{name}.*")) if path.suffix in (".py", ".c")]
+    sources = "".join(path.read_text(encoding="utf-8") for path in programs)
+    found = [
+        quotes(sections(page(language, name))[headings[PROGRAM]])
+        for language, headings in SECTIONS.items()
+    ]
     assert found[0] == found[1] != []
     for kind, code in found[0]:
         assert kind in ("python", "c")
@@ -61,8 +61,9 @@ def test_pages_have_the_same_parts_in_both_languages(name):
         text = page(language, name)
         assert list(sections(text)) == headings
         assert text.startswith(f"# {int(name[:2])}. ")
-        assert text.count(f"](../pictures/{name}.png)") == 1
-        exercises.append(re.findall(r"^(\d)\. ", sections(text)[headings[3]], re.M))
+        picture = f"{name}.png" if language == "en" else f"{language}/{name}.png"
+        assert text.count(f"](../pictures/{picture})") == 1
+        exercises.append(re.findall(r"^(\d)\. ", sections(text)[headings[TASKS]], re.M))
         vocabulary.append(terms(text)[2:])
         commands.append(re.findall(r"^    (python .*?\w)(?:  .*)?$", text, re.M))
     assert exercises[0] == exercises[1] and 3 <= len(exercises[0]) <= 5
@@ -100,7 +101,8 @@ def test_links_lead_somewhere(path):
 
 
 def test_pictures_belong_to_lessons():
-    assert sorted(path.stem for path in (COURSE / "pictures").glob("*")) == NAMES
+    for folder in (COURSE / "pictures", COURSE / "pictures" / "fr"):
+        assert sorted(path.stem for path in folder.glob("*.png")) == NAMES
 
 
 def shown_by():

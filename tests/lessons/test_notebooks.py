@@ -38,20 +38,23 @@ def test_a_notebook_has_the_whole_program_and_the_whole_page(name):
         lost = [line for line in page[5:] if line not in whole and not line.startswith("    py")]
         assert [line for line in lost if not line.startswith("```")] == []
         assert texts[0].startswith(page[0])
-    assert cells(name, "en", "code") == cells(name, "fr", "code")
+    english, french = (cells(name, language, "code") for language in ("en", "fr"))
+    assert french == [code.replace(f'("{name}", "en")', f'("{name}", "fr")') for code in english]
+    assert french != english
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("language", ["en", "fr"])
 @pytest.mark.parametrize("name", NAMES)
-def test_a_notebook_runs_and_draws_the_picture(name, monkeypatch):
+def test_a_notebook_runs_and_draws_the_picture(name, language, monkeypatch):
     monkeypatch.setattr(sys, "path", [*sys.path])
     shown = []
     names = {"display": lambda image: shown.append(np.asarray(image))}
-    for code in cells(name, "en", "code"):
+    for code in cells(name, language, "code"):
         exec(compile(code, name, "exec"), names)
     from lesson import sheet
 
-    with Image.open(COURSE / "pictures" / f"{name}.png") as kept:
+    with Image.open(make["COURSE"]["picture_path"](name, language)) as kept:
         assert np.array_equal(sheet(shown)[:, :, :3], np.asarray(kept.convert("RGB")))
 
 

@@ -225,6 +225,11 @@ def test_bad_arguments_are_named(call):
         call()
 
 
+def test_segments_say_what_is_counted():
+    with pytest.raises(InvalidArgumentError, match="wedges around and bands from pole .*, not 12"):
+        e3d.uv_sphere(segments=12)
+
+
 def test_a_hexahedron_of_the_corners_of_a_box_is_that_box():
     corners = [(x, y, z) for z in (-0.5, 0.5) for x, y in ((-1, -2), (1, -2), (1, 2), (-1, 2))]
     made, box = e3d.primitives.hexahedron(corners), e3d.box((2, 4, 1))

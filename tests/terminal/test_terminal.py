@@ -114,6 +114,20 @@ def test_run_shows_pictures_and_obeys_keys(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_lessons_are_shown_and_answers_checked(kind):
+    terminal = FakeTerminal(
+        kind, "learn", "lines", "--terminal", "--language", "en", size=(60, 100)
+    )
+    assert SHOWS[kind] in terminal.wait_for(b"step 1 of 6")
+    terminal.type(b"\x1b[C")
+    assert SHOWS[kind] in terminal.wait_for(b"step 2 of 6")
+    terminal.type(b"50\r")
+    terminal.wait_for(b"Right!" if kind == "blocks" else re.escape(SHOWS[kind]))
+    terminal.type(b"q")
+    assert terminal.ends() == 0
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_render_prints_a_picture(kind):
     terminal = FakeTerminal(kind, "render", "MODEL", "-o", "terminal:")
     terminal.wait_for(re.escape(SHOWS[kind]))

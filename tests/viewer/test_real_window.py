@@ -159,16 +159,25 @@ def test_a_message_that_comes_after_its_window_closed_ends_nothing(screen):
     assert other.returncode == 1 and "X_MapWindow" in other.stderr and not other.stdout
 
 
-def test_lessons_go_forward_and_back(screen, tmp_path):
-    with Viewer(screen, tmp_path, "zbuffer", command="learn") as desktop:
+def test_lessons_are_read_played_with_and_checked(screen, tmp_path):
+    with Viewer(screen, tmp_path, "lines", command="learn") as desktop:
         first = desktop.settle()
-        assert "step 1" in desktop.title
+        assert desktop.title == "3. Lines - step 1 of 6"
         assert (desktop.settle_after("Right") != first).sum() > 1000
-        assert "step 2" in desktop.title
+        assert desktop.title == "3. Lines - step 2 of 6"
         assert (desktop.settle_after("Left") == first).all()
+        assert (desktop.settle_after("Up") != first).sum() > 1000
+        assert (desktop.settle_after("Down") == first).all()
+        wrong = desktop.settle_after("4", "9", "Return")
+        right = desktop.settle_after("BackSpace", "BackSpace", "5", "0", "Return")
+        assert (right == (130, 210, 130)).all(axis=2).sum() > 10
+        assert not (wrong == (130, 210, 130)).all(axis=2).any()
+        assert (desktop.settle_after("h") != right).sum() > 10_000
+        assert (desktop.settle_after("h") == right).all()
+        desktop.settle_after("End")
+        assert desktop.title == "3. Lines - step 6 of 6"
         desktop.do("key", "q")
-        status, said = desktop.finish()
-    assert status == 0 and said.startswith(b"Arrows: steps.") and said.count(b"\n") == 1
+        assert desktop.finish() == (0, b"")
 
 
 def test_a_number_of_frames_ends_though_nothing_moves(screen, tmp_path):

@@ -92,6 +92,11 @@ class TerminalWindow:
         return max(columns - 2, 1), max(rows - 3, 1)
 
     @property
+    def cells(self) -> tuple[int, int]:
+        """Columns and rows of the whole terminal."""
+        return self._device.cells()
+
+    @property
     def size(self) -> tuple[int, int]:
         """Width and height in pixels of the picture for the terminal."""
         return picture_size(self.answers, self._room())
@@ -113,6 +118,11 @@ class TerminalWindow:
         first = rows - len(lines) + 1
         text = [f"\x1b[{first + n};1H\x1b[7m {line} \x1b[0m" for n, line in enumerate(lines)]
         self._device.write("".join(text).encode("utf-8", "replace"))
+
+    def show_lines(self, lines: list[str]) -> None:
+        """Show lines of text, with their codes of colours, in place of a picture."""
+        rows = [f"\x1b[{number};1H\x1b[2K{line}\x1b[0m" for number, line in enumerate(lines, 1)]
+        self._device.write("".join(rows).encode("utf-8", "replace"))
 
     @property
     def title(self) -> str:

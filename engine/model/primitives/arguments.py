@@ -59,11 +59,15 @@ def integer(name: str, value: Any, least: int, most: int) -> int:
     return number
 
 
-def segment_pair(name: str, values: Any, least: tuple[int, int]) -> tuple[int, int]:
-    """Return two counts of segments, each at least its own minimum."""
+def segment_pair(
+    name: str, values: Any, least: tuple[int, int], what: tuple[str, str]
+) -> tuple[int, int]:
+    """Return two counts of segments, each at least its own minimum; ``what`` says of what."""
     given, values = values, as_array(values, name)
     if values.shape != (2,):
-        raise InvalidArgumentError(f"{name} must be two integers, not {shown(given)}")
+        raise InvalidArgumentError(
+            f"{name} must be two integers, {' and '.join(what)}, not {shown(given)}"
+        )
     first, second = (
         integer(name, value, low, MAX_SEGMENTS) for value, low in zip(values, least, strict=True)
     )

@@ -110,7 +110,7 @@ def plane(size: float | npt.ArrayLike = (1.0, 1.0), segments: int | npt.ArrayLik
     segments = as_array(segments, "segments")
     if segments.ndim == 0:
         segments = (integer("segments", segments.item(), 1, MAX_SEGMENTS),) * 2
-    columns, rows = segment_pair("segments", segments, (1, 1))
+    columns, rows = segment_pair("segments", segments, (1, 1), ("along x", "along z"))
     u, v, form = _sheet(rows, columns)
     return shaped(form, np.stack(((u - 0.5) * width, np.zeros_like(u), (0.5 - v) * depth), axis=1))
 

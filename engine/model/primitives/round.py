@@ -63,7 +63,8 @@ def uv_sphere(radius: float = 0.5, segments: npt.ArrayLike = (32, 16)) -> Mesh:
         If the radius isn't finite and greater than 0, or a number of segments is out of range.
     """
     radius = positive("radius", radius)
-    around, bands = segment_pair("segments", segments, (3, 2))
+    what = "wedges around", "bands from pole to pole"
+    around, bands = segment_pair("segments", segments, (3, 2), what)
     normals, form = _globe(around, bands)
     return shaped(form, normals * radius)
 
@@ -215,7 +216,8 @@ def torus(
         raise InvalidArgumentError(
             f"minor_radius must be less than major_radius ({major}), not {minor}"
         )
-    around, across = segment_pair("segments", segments, (3, 3))
+    what = "around the ring", "around the tube"
+    around, across = segment_pair("segments", segments, (3, 3), what)
     ring_x, ring_y, tube_x, tube_z, form = _torus(around, across)
     distance = major + minor * tube_x
     height = minor * tube_z + np.zeros_like(ring_x)

@@ -117,8 +117,8 @@ COMMANDS = {
         common=(*_OF_PICTURES, "--turntable", "--animation", "--no-background"),
     ),
     "info": Command(
-        "print what model files hold, or what a report of a bug should say",
-        "Print the lists that model files hold, their bounds and their warnings; or, with "
+        "tell what model files hold, or what a report of a bug should say",
+        "Count what the lists of model files hold, and print bounds and warnings; or, with "
         "--system, what a report of a bug should say of the machine and the installation.",
         _add_info,
     ),
@@ -156,9 +156,9 @@ COMMANDS = {
     ),
     "learn": Command(
         "show how a 3D engine works, lesson by lesson",
-        "Show the lessons of the course in a window, step by step. Each is a short program that "
-        "draws as a student would. Right and left arrow go from step to step, N and P from lesson "
-        "to lesson, Q leaves.",
+        "Show the lessons of the course in a window, step by step: pictures, idea, code, something "
+        "to play with, an exercise. H lists the keys. Where there is no screen, the lesson is "
+        "written as a page of HTML.",
         _of_modules("learn_options"),
         is_quiet=False,
     ),

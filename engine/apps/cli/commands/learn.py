@@ -1,42 +1,25 @@
-"""``engine3d learn``: shows the lessons of the course, step by step in a window.
-
-The lessons are programs in `engine3d.lessons`, installed as data. They run as scripts and import
-each other, so their folder is on the import path.
-"""
+"""``engine3d learn``: shows the lessons of the course in a window, in a terminal or as HTML."""
 
 from __future__ import annotations
 
 import argparse
-import ast
-import functools
-import importlib
 import os
-import runpy
+import re
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
-from importlib.resources import files
+from collections.abc import Mapping
 from pathlib import Path
-from types import ModuleType
-
-import numpy as np
 
 from ....errors import DisplayError
-from ...viewer.lesson_window import Lesson, LessonWindow
-from ...viewer.program_window import ProgramWindow
+from ....io.output.animation_files import numbered_path
+from ...learn.lesson_programs import find_programs, shared_by_lessons, steps_function, texts_of
+from ...learn.words import say
 from ..arguments import meant
+from ..outputs import check_folder
+from ..quietness import remark
 from ..usage import UsageError
-from . import french_lessons
 
-SIZE = (1200, 720)
-
-
-#: Texts of the window and the command, by language.
-KEYS = {
-    "en": "Arrows: steps. N and P: lessons. Q: leave. The program: {}",
-    "fr": french_lessons.KEYS,
-}
-STEP = {"en": "step {} - arrows: steps, N P: lessons", "fr": french_lessons.STEP}
+PAGES = (".html", ".htm")
 
 
 def learn(args: argparse.Namespace) -> int:
@@ -44,22 +27,26 @@ def learn(args: argparse.Namespace) -> int:
     programs = find_programs()
     language = args.language or usual_language(os.environ)
     if args.list:
-        for number in range(len(programs)):
-            say(title_of(programs, number, language))
+        for program in programs:
+            write_line(texts_of(program).title(language))
         return 0
     number = choose(args.lesson, programs)
+    program = programs[number]
     if args.path:
-        print(programs[number])
-        return 0
-    if args.output is not None:
-        if os.path.exists(args.output) and not os.path.isdir(args.output):
-            raise UsageError(f"-o FOLDER: {args.output} is not a folder")
-        return write(programs[number], args.output, language)
-    show(programs, number, language, args.ui_scale)
+        print(program)
+    elif args.code:
+        for line in texts_of(program).code:
+            write_line(line)
+    elif args.check is not None:
+        return check(program, args.check, language)
+    elif args.output is not None:
+        write(program, args.output, language)
+    else:
+        show(args, programs, number, language)
     return 0
 
 
-def say(text: str) -> None:
+def write_line(text: str) -> None:
     """Print a line; letters missing in the terminal's encoding become question marks."""
     encoding = sys.stdout.encoding or "utf-8"
     print(text.encode(encoding, "replace").decode(encoding))
@@ -74,21 +61,6 @@ def usual_language(environment: Mapping[str, str]) -> str:
     return "fr" if chosen.split(":")[0].lower().startswith("fr") else "en"
 
 
-def find_programs() -> list[Path]:
-    """Return the programs of the lessons, in order."""
-    folder = Path(str(files("engine3d.lessons")))
-    return sorted(folder.glob("[0-9][0-9]_*.py"))
-
-
-def title_of(programs: list[Path], number: int, language: str = "en") -> str:
-    """Return a lesson's number and title: its program's first sentence, or the French title."""
-    if language == "fr":
-        return french_lessons.title_in_french(number)
-    program = programs[number]
-    docstring = ast.get_docstring(ast.parse(program.read_text(encoding="utf-8"))) or ""
-    return f"{number + 1:2}. {docstring.splitlines()[0].rstrip('.')}"
-
-
 def choose(wanted: str, programs: list[Path]) -> int:
     """Return the index of a lesson given by number or name, such as 3 or lines."""
     names = [program.stem for program in programs]
@@ -99,54 +71,66 @@ def choose(wanted: str, programs: list[Path]) -> int:
     raise UsageError(f"no lesson {wanted}{hint} (engine3d learn --list has them all)")
 
 
-def write(program: Path, folder: str, language: str) -> int:
-    """Write the pictures of a lesson to a folder; return the exit status."""
-    if language == "en":
-        command = [sys.executable, str(program), "-o", folder]
-        return subprocess.run(command).returncode
-    steps = ((french_lessons.caption_in_french(step[0]), *step[1:]) for step in steps_of(program))
-    shared_by_lessons(program).save(Path(folder) / f"{program.stem}.png", steps)
-    return 0
+def check(program: Path, file: str, language: str) -> int:
+    """Tell whether a pupil's program prints the answer of the exercise; return the exit status."""
+    done = subprocess.run([sys.executable, file], stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:  # what is wrong has been printed
+        return 1
+    numbers = re.findall(r"-?\d+(?:[.,]\d+)?", done.stdout)
+    is_right = bool(numbers) and texts_of(program).is_right(numbers[-1])
+    verdict = say("right" if is_right else "wrong" if numbers else "none", language)
+    write_line(f"{numbers[-1]}: {verdict}" if numbers else verdict)
+    return 0 if is_right else 1
 
 
-def show(programs: list[Path], number: int, language: str, ui_scale: float | None = None) -> None:
-    """Show lessons in a window, starting with a given one.
+def write(program: Path, output: str, language: str) -> None:
+    """Write a lesson as a page of HTML, or its pictures to a folder."""
+    if output.lower().endswith(PAGES):
+        write_page(program, output, language)
+        return
+    if os.path.exists(output) and not os.path.isdir(output):
+        raise UsageError(f"-o FOLDER or FILE.html: {output} is not a folder")
+    shared = shared_by_lessons(program)
+    caption_of = shared.captions_of(program.stem, language)
+    shared.save(Path(output) / f"{program.stem}.png", steps_function(program)(), caption_of)
 
-    Raises
-    ------
-    DisplayError
-        There is no screen.
-    """
-    lessons = [
-        Lesson(title_of(programs, k, language).strip(), functools.partial(draw, program, language))
-        for k, program in enumerate(programs)
-    ]
+
+def write_page(program: Path, output: str, language: str) -> None:
+    """Write a lesson as a page of HTML."""
+    from ...learn.page_html import lesson_html
+
+    check_folder(output)
+    page = lesson_html(program, language)
+    Path(output).parent.mkdir(parents=True, exist_ok=True)
+    Path(output).write_text(page, encoding="utf-8")
+
+
+def show(args: argparse.Namespace, programs: list[Path], number: int, language: str) -> None:
+    """Show the course; where there is no screen, write the lesson as a page and say so."""
+    from ...learn.course_session import Session
+    from ...learn.learn_window import LearnWindow
+
+    session = Session(programs, number, language)
     try:
-        with ProgramWindow(
-            None, SIZE, lessons[number].title, ui_scale=ui_scale, wait=True
-        ) as window:
-            say(KEYS[language].format(programs[number]))
-            LessonWindow(window, lessons, number, STEP[language]).run()
+        window = open_window(args, session.title)
     except DisplayError as error:
-        raise DisplayError(f"{error}; -o FOLDER writes the pictures of a lesson") from error
+        if args.terminal:
+            raise
+        path = numbered_path(Path(), programs[number].stem, ".html")
+        remark(f"{error}: writing the lesson to {path} instead")
+        write_page(programs[number], str(path), language)
+        return
+    with window:
+        LearnWindow(window, session).run()
 
 
-def shared_by_lessons(program: Path) -> ModuleType:
-    """Return the module that the lessons share, from their folder."""
-    if str(program.parent) not in sys.path:
-        sys.path.insert(0, str(program.parent))
-    return importlib.import_module("lesson")
+def open_window(args: argparse.Namespace, title: str):
+    """Return a window, or the terminal that replaces it."""
+    if args.terminal:
+        from ...terminal.terminal_window import TerminalWindow
 
+        return TerminalWindow()
+    from ...learn.page_picture import USUAL_SIZE
+    from ...viewer.program_window import ProgramWindow
 
-def steps_of(program: Path) -> Iterator[tuple]:
-    """Yield the steps of a lesson from its program: a caption, then pictures."""
-    shared_by_lessons(program)
-    yield from runpy.run_path(str(program))["steps"]()
-
-
-def draw(program: Path, language: str) -> Iterator[np.ndarray]:
-    """Yield the steps of a lesson, each with its side pictures and caption."""
-    for caption, *pictures in steps_of(program):
-        if language == "fr":
-            caption = french_lessons.caption_in_french(caption)
-        yield shared_by_lessons(program).block(caption, *pictures)
+    return ProgramWindow(None, USUAL_SIZE, title, ui_scale=args.ui_scale, wait=True)

@@ -19,16 +19,29 @@ def add(command) -> None:
     )
     command.add_argument("--list", action="store_true", help="list the lessons")
     command.add_argument("--path", action="store_true", help="print where the program is")
+    command.add_argument("--code", action="store_true", help="print the lines to type")
+    command.add_argument(
+        "--check",
+        metavar="FILE",
+        help="run a program of yours, and tell whether the last number that it prints answers the "
+        "exercise",
+    )
+    command.add_argument(
+        "--terminal",
+        action="store_true",
+        help="show it in the terminal, also over SSH: as kitty graphics, sixels or coloured text",
+    )
     command.add_argument(
         "--language",
         choices=LANGUAGES,
-        help="of titles and captions (default: French where the locale is, else English)",
+        help="of the lessons (default: French where the locale is, else English)",
     )
     command.add_argument(
         "-o",
         "--output",
-        metavar="FOLDER",
-        help="write the lesson's pictures to a folder instead of opening a window",
+        metavar="FOLDER|FILE.html",
+        help="write the lesson's pictures to a folder, or the lesson as one page of HTML, "
+        "instead of opening a window",
     )
     window_options.add_ui_scale(command)
     config.add_config(command)

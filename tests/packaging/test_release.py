@@ -88,6 +88,24 @@ def test_a_module_for_windows_is_named_so_and_sees_its_headers(source_tree, tmp_
     assert "ziglang" in ran[0]
 
 
+def test_on_windows_each_folder_of_tests_has_a_process_of_its_own(source_tree, capsys):
+    script = rules(source_tree, ".ci/windows")
+    statuses = {"files": 1, "notebook": script["NO_TESTS"]}
+    asked = []
+
+    def test(folder):
+        asked.append(folder.name)
+        return script["Ended"](statuses.get(folder.name, 0), f"{folder.name} is done")
+
+    windows = SimpleNamespace(test=test)
+    assert script["whole"](windows) == 1
+    assert {"batch", "editor", "files", "notebook"} < {*asked} and asked == sorted(asked)
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(asked) and lines[0].endswith(f"{asked[0]} is done")
+    del statuses["files"]
+    assert script["whole"](windows) == 0
+
+
 @pytest.mark.parametrize(
     "platform, machine, is_windows",
     [

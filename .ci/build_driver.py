@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Builds csrc/check/driver/ and the C core into one program, without Python's own flags.
 
-In:  --output FILE, --compiler CC (a cross compiler too), --static, and ENGINE3D_BUILD as in
-     build_rules.py, which also gives the libraries and the flags. With --fuzz, by clang only, the
-     core goes with each target of csrc/check/fuzz/ instead, and --output is their folder.
+In:  --output FILE, --compiler CC (a cross compiler too; words, as setuptools reads CC), --static,
+     and ENGINE3D_BUILD as in build_rules.py, which also gives the libraries and the flags. With
+     --fuzz, by clang only, the core goes with each target of csrc/check/fuzz/ instead, and --output
+     is their folder.
 Out: the program, or the targets. Nothing is kept between runs.
 """
 
 import argparse
 import os
 import runpy
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -35,9 +37,13 @@ POISONED = ("malloc", "realloc", "posix_memalign")
 
 
 def rules_for(compiler):
-    """The globals of build_rules.py, as if run on the processor that `compiler` compiles for."""
+    """The globals of build_rules.py, as if run on the processor that `compiler` compiles for.
+
+    compiler: the words of its command.
+    """
     rules = runpy.run_path(str(ROOT / "csrc" / "build_rules.py"), run_name="rules")
-    machine = subprocess.run([compiler, "-dumpmachine"], capture_output=True, text=True, check=True)
+    asked = [*compiler, "-dumpmachine"]
+    machine = subprocess.run(asked, capture_output=True, text=True, check=True)
     rules["IS_LINUX"] = "linux" in machine.stdout
     # The functions of build_rules.py read these names from their own globals.
     for name, tell in (("MACHINE", "machine_of"), ("IS_WINDOWS", "is_windows")):
@@ -67,7 +73,7 @@ def compile_all(compiler, rules, fuzz, folder, more=(), told=lambda made, total:
         extra = [*more, *(FUZZ_FLAGS if fuzz else poison)]
         if fuzz and not source.startswith(TRACED):
             extra = [*extra, *UNTRACED_FLAGS]
-        command = [compiler, *macros, *includes, *flags, *extra, "-c", source, "-o", target]
+        command = [*compiler, *macros, *includes, *flags, *extra, "-c", source, "-o", target]
         subprocess.run(command, check=True)
         return source, target
 
@@ -76,7 +82,7 @@ def compile_all(compiler, rules, fuzz, folder, more=(), told=lambda made, total:
 
 
 def link(compiler, rules, objects, extra, output):
-    command = [compiler, *rules["common_flags"](), *extra, *objects, "-lm"]
+    command = [*compiler, *rules["common_flags"](), *extra, *objects, "-lm"]
     subprocess.run([*command, "-o", str(output)], check=True)
 
 
@@ -102,16 +108,16 @@ def main():
     parser.add_argument("--fuzz", action="store_true")
     parser.add_argument("--static", action="store_true")
     arguments = parser.parse_args()
-    output = arguments.output.resolve()
+    output, compiler = arguments.output.resolve(), shlex.split(arguments.compiler)
     os.chdir(ROOT)
-    rules = rules_for(arguments.compiler)
+    rules = rules_for(compiler)
     with tempfile.TemporaryDirectory() as folder:
-        objects = compile_all(arguments.compiler, rules, arguments.fuzz, folder)
+        objects = compile_all(compiler, rules, arguments.fuzz, folder)
         if arguments.fuzz:
-            link_targets(arguments.compiler, rules, objects, output)
+            link_targets(compiler, rules, objects, output)
         else:
             static = ["-static"] if arguments.static else []
-            link(arguments.compiler, rules, objects.values(), static, output)
+            link(compiler, rules, objects.values(), static, output)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import json
 import os
 import re
 import runpy
+import shlex
 import shutil
 import statistics
 import subprocess
@@ -110,14 +111,14 @@ def perf_functions(name, arguments):
 def gprof_functions(backend, scenes):
     """[(percent, function)] of the C driver's random scenes on one backend, built with -pg."""
     build = runpy.run_path(str(ROOT / ".ci" / "build_driver.py"), run_name="rules")
-    compiler = os.environ.get("CC", "cc")
+    compiler = shlex.split(os.environ.get("CC", "cc"))
     os.chdir(ROOT)
     with tempfile.TemporaryDirectory() as folder:
         rules = build["rules_for"](compiler)
         told = functools.partial(tracked, what="compiling the core and its driver")
         objects = build["compile_all"](compiler, rules, False, folder, ["-pg"], told)
         program = f"{folder}/driver"
-        linked = [compiler, "-pg", "-pthread", *objects.values(), "-lm", "-o", program]
+        linked = [*compiler, "-pg", "-pthread", *objects.values(), "-lm", "-o", program]
         subprocess.run(linked, check=True)
         run = [program, "--scenes", str(scenes), "--threads", "1", "--backend", backend]
         draw_scenes(run, scenes, folder)

@@ -19,6 +19,9 @@ def pytest_configure(config):
     skip_where_files_cannot_be_made()
     # The options of whoever runs the tests are none of the tests'.
     os.environ["XDG_CONFIG_HOME"] = os.devnull
+    # Without those of Windows, XDG's count there, too.
+    for name in ("APPDATA", "LOCALAPPDATA"):
+        os.environ.pop(name, None)
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
         _keep_bytecode(config)
     # Taken away from runs of pytest that tests start.

@@ -11,6 +11,10 @@ import pytest
 KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 KILLED = "was ended by SIGKILL" if hasattr(signal, "SIGKILL") else f"ended with status {KILL:d}"
 
+needs_full_device = pytest.mark.skipif(
+    os.name == "nt" or not os.path.exists("/dev/full"), reason="there is no /dev/full"
+)
+
 
 def skip_where_files_cannot_be_made():
     """Let `os.symlink` and `os.mkfifo` skip the test where there are no such files.
@@ -40,6 +44,21 @@ def _skipping(what):
         raise _NoSuchFile(f"{what} cannot be made here")
 
     return skip
+
+
+def interrupt():
+    """Press Ctrl-C, as far as this process can tell; `os.kill` would end it on Windows."""
+    if os.name == "nt":
+        signal.raise_signal(signal.SIGINT)
+    else:
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+def open_files():
+    """Return the handles that this process has open; none where the system does not tell."""
+    with contextlib.suppress(OSError):
+        return os.listdir("/proc/self/fd")
+    return []
 
 
 def is_superuser():

@@ -110,8 +110,8 @@ def main() -> int:
     for page in arguments.pages or pages():
         source = FOLDER / f"{page}.py"
         if source.exists() and not arguments.check:
-            source.write_text(program(pages()[page]))
-        elif source.exists() and source.read_text() != program(pages()[page]):
+            source.write_text(program(pages()[page]), "utf-8")
+        elif source.exists() and source.read_text("utf-8") != program(pages()[page]):
             stale.append(source.name)
         for name, picture in draw(page).items():
             if not arguments.check:

@@ -104,6 +104,7 @@ def stop(path, place, number, count, *options):
     return started.returncode
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals between processes")
 def test_a_stopped_batch_goes_on_where_it_was(manifest, place):
     path = manifest({**SCRIPT, "size": [400, 300], "matrix": {"seed": {"count": 30}}})
     out, tasks = place / "out", read_manifest(path).tasks

@@ -151,6 +151,19 @@ def test_textures_and_declared_files_count(place, manifest):
     assert run(tasks, place / "out", jobs=1, resume=True).drawn == 0
 
 
+def test_a_model_on_another_drive_counts(place, manifest, monkeypatch):
+    tasks = read_manifest(manifest(MODEL)).tasks
+
+    def refused(path, start):  # as on Windows
+        raise ValueError("path is on mount 'D:', start on mount 'C:'")
+
+    monkeypatch.setattr("os.path.relpath", refused)
+    assert run(tasks, place / "out", jobs=1).drawn == 1
+    assert run(tasks, place / "out", jobs=1, resume=True).done_before == 1
+    (place / "model.obj").write_text("v -1 0 0\nv 1 0 0\nv 0 3 0\nf 1 2 3\n")
+    assert run(tasks, place / "out", jobs=1, resume=True).drawn == 1
+
+
 def test_modules_beside_a_script_count(place, manifest):
     (place / "sizes.py").write_text("SIDE = 1.0\n")
     (place / "with_sizes.py").write_text(

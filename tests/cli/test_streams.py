@@ -12,6 +12,7 @@ import time
 import numpy as np
 import pytest
 from cli.conftest import SMALL, pixels, start
+from missing_here import needs_full_device
 from patience import HUNG
 from PIL import Image
 
@@ -67,6 +68,7 @@ def test_standard_input_without_a_model(capsys, monkeypatch):
     assert capsys.readouterr().err.count("\n") == 2
 
 
+@needs_full_device
 @pytest.mark.parametrize("option", ["--list-readers", "--help", "--version"])
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 def test_what_is_printed_on_a_full_disk_ends_without_a_traceback(option, unbuffered):
@@ -79,6 +81,7 @@ def test_what_is_printed_on_a_full_disk_ends_without_a_traceback(option, unbuffe
     assert done.stderr or option != "--list-readers"
 
 
+@needs_full_device
 def test_a_picture_on_a_full_disk_says_where(model):
     with open("/dev/full", "w") as full:
         command = [sys.executable, "-m", "engine3d", "render", str(model), *SMALL, "-o", "-"]
@@ -95,6 +98,7 @@ def test_a_reader_that_leaves_is_no_traceback(model):
     process.stderr.close()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes them")
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
 def test_closed_streams(model, tmp_path, closed):
     """Nobody is told anything; what is written is whole, without anybody's lines in it."""
@@ -125,6 +129,7 @@ def test_a_reader_of_a_picture_that_leaves():
     assert error == b""
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals between processes")
 def test_ctrl_c_is_quiet_and_leaves_no_file(model, tmp_path):
     output = tmp_path / "long.gif"
     process = start("render", model, "--turntable", "3000", "--verbose", "-o", output)

@@ -67,9 +67,9 @@ def test_the_title_of_a_model_is_shown_as_python_writes_it():
 
 
 NUMPY = """
-import os, signal, time
+import signal, time
 try:
-    os.kill(os.getpid(), signal.SIGINT)
+    signal.raise_signal(signal.SIGINT)
     time.sleep(0.2)
 except BaseException:
     pass  # as an extension module may

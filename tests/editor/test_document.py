@@ -1,7 +1,9 @@
 """Opening and saving: nothing is overwritten unasked, and at most a minute is lost."""
 
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from loaders.seeds import FILES
@@ -139,7 +141,8 @@ def test_what_a_crash_left_behind_is_found_and_recovered(folder, tmp_path, has_f
     copies = tmp_path / "unsaved"
     path = str(folder / "a.e3d.json") if has_file else ""
     command = [sys.executable, "-W", "ignore", "-c", CRASH, path, str(copies)]
-    assert subprocess.run(command, cwd=folder, check=False).returncode == -6
+    # Systems number it in their own ways; 1 is an exception's.
+    assert subprocess.run(command, cwd=folder, check=False).returncode not in (0, 1)
     (copy,) = left_behind(copies)
     assert copy.document == (path or None)
     document = SceneDocument.recover(copy)
@@ -164,6 +167,22 @@ def test_what_was_recovered_is_copied_at_once(tmp_path):
     autosave = Autosave(document, tmp_path)
     assert len(list(tmp_path.glob("*.e3d.json"))) == 1
     assert not autosave.tick(1e9)
+    autosave.discard()
+    assert not list(tmp_path.iterdir())
+
+
+def test_nothing_stays_where_open_files_cannot_be_removed(tmp_path, monkeypatch):
+    document = SceneDocument()
+    document.history.mark_unsaved()
+    autosave, unlink = Autosave(document, tmp_path), Path.unlink
+
+    def unlink_closed(path):  # as on Windows
+        if path.suffix == ".lock" and os.path.exists(f"/dev/fd/{lock}"):
+            raise PermissionError
+        unlink(path)
+
+    lock = autosave._lock
+    monkeypatch.setattr(Path, "unlink", unlink_closed)
     autosave.discard()
     assert not list(tmp_path.iterdir())
 

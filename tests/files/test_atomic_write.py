@@ -3,6 +3,7 @@
 import ast
 import os
 import stat
+import sys
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,7 @@ def test_a_failure_leaves_what_was_there(tmp_path):
     assert os.listdir(tmp_path) == ["out.bin"]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such permissions")
 def test_permissions_are_those_of_the_old_file_or_of_the_umask(tmp_path):
     new, old = tmp_path / "new", tmp_path / "old"
     old.write_bytes(b"")
@@ -58,13 +60,13 @@ def test_a_symbolic_link_keeps_pointing_to_the_file_that_is_replaced(tmp_path):
 
 def test_a_missing_folder_is_a_clear_error(tmp_path):
     path = tmp_path / "missing" / "out.bin"
-    with pytest.raises(FileAccessError, match=r"missing/out\.bin: cannot write: No such file"):
+    with pytest.raises(FileAccessError, match=r"missing[/\\]out\.bin: cannot write: No such file"):
         with atomic_write(path):
             pass
 
 
 def test_a_device_is_written_to_directly():
-    with atomic_write("/dev/null") as file:
+    with atomic_write(os.devnull) as file:
         file.write(b"x")
 
 
@@ -200,6 +202,8 @@ def test_an_address_is_no_place_to_write_to(tmp_path, monkeypatch):
     ):
         with pytest.raises(e3d.FileAccessError, match="cannot write to an address: give a path"):
             write("https://host/a")
+    if sys.platform == "win32":
+        return  # no folder has a colon in its name
     monkeypatch.chdir(tmp_path)
     (tmp_path / "s3:" / "bucket").mkdir(parents=True)  # a folder of that name can be meant
     frame.save("s3://bucket/a.png")

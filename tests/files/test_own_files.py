@@ -76,7 +76,8 @@ def test_a_damaged_record_is_named_and_its_picture_drawn_again(text, tmp_path):
     case = Batch(tmp_path, CocoWriter(), ".batch/p0.json")
     (path,) = case._files
     path.write_text(text)
-    with pytest.warns(e3d.Engine3DWarning, match=r"\.batch/p0\.json.*: the picture is drawn again"):
+    told = r"\.batch[/\\]p0\.json.*: the picture is drawn again"
+    with pytest.warns(e3d.Engine3DWarning, match=told):
         assert case._run(True) == case._hash
     assert path.read_bytes() == case._files[path]
 

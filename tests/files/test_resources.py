@@ -117,7 +117,7 @@ def test_files_that_changed_are_loaded_again(folder):
         assert (after != before).any()
         (folder / "m.obj").write_text(OBJ.replace("v 1 0 0", "v 5 0 0"))
         stamp(folder / "m.obj")
-        assert resources.reload_changed() == (f"{path}/m.obj",)
+        assert resources.reload_changed() == (os.path.join(path, "m.obj"),)
         assert mesh.positions.max() == 5
         assert scene.bounds[1, 0] == 5
 

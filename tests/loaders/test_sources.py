@@ -1,6 +1,7 @@
 """What can be loaded: paths, bytes, file objects, and all of them compressed."""
 
 import contextlib
+import errno
 import gzip
 import io
 import os
@@ -11,6 +12,7 @@ import zipfile
 import numpy as np
 import pytest
 from loaders.seeds import FILES
+from missing_here import open_files
 
 from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError, InvalidArgumentError
 from engine3d.io.loaders import load_document, load_mesh, load_texture
@@ -146,9 +148,9 @@ def test_large_files_are_read_piece_by_piece(write, monkeypatch, name, piece):
             with monkeypatch.context() as patch:
                 patch.setattr(sources, "_LARGE", 0)
                 patch.setattr(sources, "_PIECE", piece)
-                before = os.listdir("/proc/self/fd")
+                before = open_files()
                 assert outcome(path) == expected
-                assert os.listdir("/proc/self/fd") == before
+                assert open_files() == before
 
 
 def outcome(path):
@@ -157,6 +159,16 @@ def outcome(path):
     except FileFormatError as error:
         return str(error)
     return mesh.positions.tobytes(), mesh.faces.tobytes(), mesh.warnings
+
+
+def test_a_folder_is_one_where_the_system_only_says_that_it_is_forbidden(tmp_path, monkeypatch):
+    def forbidden(*_arguments):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+    monkeypatch.setattr(os, "open", forbidden)
+    for path, reason in ((tmp_path, "Is a directory"), (tmp_path / "a.obj", "Permission denied")):
+        with pytest.raises(FileAccessError, match=f"cannot read: {reason}"):
+            load_mesh(path)
 
 
 @pytest.mark.parametrize("name", ["binary.ply", "binary.stl"])

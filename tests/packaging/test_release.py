@@ -52,6 +52,27 @@ def test_the_cross_compiler_names_its_target(source_tree):
     assert named.stdout == "aarch64-linux-gnu.2.17\n"
 
 
+@pytest.mark.parametrize(
+    "target, has_frames, has_tables",
+    [
+        ("x86_64-linux-gnu.2.17", False, False),
+        ("aarch64-linux-musl", False, False),
+        ("x86_64-windows-gnu", False, True),
+        ("aarch64-windows-gnu", True, True),
+        ("aarch64-macos.11.0", True, True),
+    ],
+)
+def test_the_cross_compiler_optimises_as_gcc_does(source_tree, target, has_frames, has_tables):
+    given = ["-fno-strict-overflow", "-O3", "-fno-asynchronous-unwind-tables", "-pthread"]
+    given += ["-fstrict-overflow", "-march=x86-64"]
+    flags = rules(source_tree, ".ci/zigcc")["flags_of"](target, given)
+    assert ("-fomit-frame-pointer" in flags) is not has_frames
+    assert ("-fno-unwind-tables" in flags) is not has_tables
+    # Python's own flag comes first, and must not be the last word.
+    assert flags.index("-fstrict-overflow") > flags.index("-fno-strict-overflow")
+    assert "-march=x86_64" in flags and "-pthread" not in flags
+
+
 def test_a_module_for_windows_is_named_so_and_sees_its_headers(source_tree, tmp_path, monkeypatch):
     release = rules(source_tree, ".ci/release")
     ran = []
@@ -65,6 +86,24 @@ def test_a_module_for_windows_is_named_so_and_sees_its_headers(source_tree, tmp_
     assert {"PyLong_FromLong", "PyType_Type DATA", "_Py_FatalErrorFunc", "PyErr_Format"} < {*names}
     assert all(name.lstrip("_").startswith("Py") for name in names if name)
     assert "ziglang" in ran[0]
+
+
+def test_on_windows_each_folder_of_tests_has_a_process_of_its_own(source_tree, capsys):
+    script = rules(source_tree, ".ci/windows")
+    statuses = {"files": 1, "notebook": script["NO_TESTS"]}
+    asked = []
+
+    def test(folder):
+        asked.append(folder.name)
+        return script["Ended"](statuses.get(folder.name, 0), f"{folder.name} is done")
+
+    windows = SimpleNamespace(test=test)
+    assert script["whole"](windows) == 1
+    assert {"batch", "editor", "files", "notebook"} < {*asked} and asked == sorted(asked)
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(asked) and lines[0].endswith(f"{asked[0]} is done")
+    del statuses["files"]
+    assert script["whole"](windows) == 0
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,12 @@
 import errno
 import os
 import stat
+import sys
 import threading
 
 import numpy as np
 import pytest
+from missing_here import needs_full_device
 from plain_picture import render
 
 import engine3d as e3d
@@ -106,6 +108,7 @@ def test_a_fifo_with_a_reader(tmp_path):
     assert len(read[0]) > 1 << 16
 
 
+@needs_full_device
 def test_a_device(tmp_path):
     with pytest.raises(FileAccessError, match=os.strerror(errno.ENOSPC)):
         with atomic_write("/dev/full") as file:
@@ -114,6 +117,7 @@ def test_a_device(tmp_path):
         file.write(b"x")
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such permissions")
 @pytest.mark.parametrize("mode", [0o4755, 0o2755, 0o6711, 0o1644])
 def test_bits_that_let_a_file_run_as_another_user_are_dropped(tmp_path, mode):
     path = tmp_path / "a.ply"

@@ -47,7 +47,15 @@ class Inputs:
     def digests(self) -> dict[str, str | None]:
         """Return the hash of each file by relative path, None for missing files."""
         paths = sorted(set(self.paths))
-        return {os.path.relpath(path, self._folder): digest_of(path) for path in paths}
+        return {_path_from(self._folder, path): digest_of(path) for path in paths}
+
+
+def _path_from(folder: str, path: str) -> str:
+    """Return a path relative to a folder, with slashes; or itself, if it is on another drive."""
+    try:
+        return os.path.relpath(path, folder).replace(os.sep, "/")
+    except ValueError:
+        return path
 
 
 def are_as_before(folder: str, digests: dict[str, str | None]) -> bool:

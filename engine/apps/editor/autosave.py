@@ -101,6 +101,8 @@ class Autosave:
             _remove(self._path)
         if self._lock is not None:
             os.close(self._lock)
+        if self._path is not None:
+            _remove(self._path)  # Windows keeps a lock that is open
         self._path = self._lock = None
 
     def _owned_path(self) -> Path:

@@ -75,10 +75,10 @@ class FolderPanel(_FilePanel):
         return [f"Open a model{title}", path, *others, *reasons]
 
     def set_filter(self, text: str) -> None:
-        """Show only names that contain a text; a folder name that ends with / opens it."""
+        """Show only names that contain a text; a folder name that ends with a slash opens it."""
         self.filter, self._follows = text, True
         path = os.path.join(self.folder, os.path.expanduser(text))
-        if text.endswith("/") and os.path.isdir(path):
+        if text.endswith(("/", os.sep)) and os.path.isdir(path):
             self._go(os.path.normpath(path))
             return
         hidden = text.startswith(".")

@@ -60,7 +60,7 @@ class RenderOption(load().visualization.RenderOption):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "options.json"
             self.save_to_json(str(path))
-            values = json.loads(path.read_text())
+            values = json.loads(path.read_text("utf-8"))
         self._ambient = tuple(values["light_ambient_color"])
         self._mesh_color = tuple(values["default_mesh_color"])
         self._lamps = tuple(

@@ -6,6 +6,7 @@ memory at once.
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 
@@ -94,4 +95,7 @@ class OpenFile:
 
 def unreadable(path: str, error: Exception) -> FileAccessError:
     """Return the error to raise for a system error."""
-    return FileAccessError(f"cannot read: {getattr(error, 'strerror', None) or error}", path)
+    reason = getattr(error, "strerror", None) or error
+    if isinstance(error, PermissionError) and os.path.isdir(path):
+        reason = os.strerror(errno.EISDIR)  # Windows only says that it may not be opened
+    return FileAccessError(f"cannot read: {reason}", path)

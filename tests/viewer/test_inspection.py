@@ -123,10 +123,12 @@ def test_an_open_cut_is_told():
 def test_parts_move_apart_and_together():
     viewer = make_viewer(plays=True)
     assert viewer.playing
+    distance = viewer.view.distance
     press(viewer, "E", control=True)
     assert isinstance(viewer.panel, ExplosionPanel) and not viewer.playing
     assert bounds(viewer)[:, 0].tolist() == [-2.0, 2.0]
     assert viewer.panel.rows()[1].text == "2 parts"
+    assert viewer.view.distance > distance * 1.2
     press(viewer, "Escape")
     press(viewer, "X", control=True)
     assert bounds(viewer)[:, 0].tolist() == [-2.0, -1.0]
@@ -135,6 +137,7 @@ def test_parts_move_apart_and_together():
     press(viewer, "E", control=True)
     click_row(viewer, 0)
     assert bounds(viewer)[:, 0].tolist() == [-1.5, 1.5]
+    assert viewer.view.distance == pytest.approx(distance)
 
 
 def test_what_is_hidden_stays_hidden():

@@ -152,15 +152,18 @@ class TakenApart:
     def _split(self) -> None:
         """Take a model that is one mesh apart."""
         self._is_split = True
-        if len(self._parts) != 1 or not isinstance(self._parts[0].thing, Mesh):
+        if len(self._parts) != 1:
             return
         only = self._parts[0]
-        found = loose_parts(only.thing)
-        if len(found) < 2 or len(only.thing.lines) or len(only.thing.points):
+        mesh = only.thing
+        if not isinstance(mesh, Mesh) or len(mesh.lines) or len(mesh.points):
+            return
+        found = loose_parts(mesh)
+        if len(found) < 2:
             return
         self._parts = []
         for name, faces in found:
-            self._add_part(with_only(only.thing, faces), name, only.pose, only.node)
+            self._add_part(with_only(mesh, faces), name, only.pose, only.node)
         self._scene.remove(only.node)
 
     def _place(self, part: _Part, amount: float) -> NDArray[np.float64]:

@@ -1,7 +1,7 @@
 """What the viewer inspects: a section, and how far the parts are moved apart.
 
-In: choices of the panels. Out: the model in the viewer, or a copy that is spread and cut. The view,
-the lights and what is hidden stay.
+In: choices of the panels. Out: the model in the viewer, or a copy that is spread and cut. Where one
+looks from, the lights and what is hidden stay.
 """
 
 from __future__ import annotations
@@ -74,8 +74,15 @@ class Inspector:
         return "all cuts are closed"
 
     def arrange(self) -> None:
-        """Show the model as it is chosen."""
-        self._viewer.redraw()
+        """Show the model as it is chosen; what grows or shrinks keeps its share of the picture."""
+        viewer = self._viewer
+        before = viewer.view_renderer.bounds.radius
+        self._arrange()
+        if viewer.walker is None:
+            viewer.view.distance *= viewer.view_renderer.bounds.radius / before
+        viewer.redraw()
+
+    def _arrange(self) -> None:
         if not (self.is_cut or self.amount):
             self._restore()
             return

@@ -112,14 +112,14 @@ def test_counters_and_the_log_stand_still_while_culling_is_frozen():
     )
     viewer = Viewer(view_renderer, ScriptedWindow(size=SIZE), statistics=True)
     viewer.draw()
-    told, count = viewer._statistics()[2:], len(reported)
+    told, count = viewer.statistics_lines()[2:], len(reported)
     viewer.handle(events.KeyDown("C", "C"))
     viewer.view.distance /= 20
     viewer.draw()
-    assert viewer._statistics()[2:] == told and len(reported) == count
+    assert viewer.statistics_lines()[2:] == told and len(reported) == count
     viewer.handle(events.KeyUp("C", "C"))
     viewer.draw()
-    assert viewer._statistics()[2:] != told and len(reported) == count + 1
+    assert viewer.statistics_lines()[2:] != told and len(reported) == count + 1
 
 
 def test_ways_of_culling_give_one_picture_and_their_own_counts():
@@ -142,7 +142,7 @@ def test_ways_of_culling_give_one_picture_and_their_own_counts():
         culling = view_renderer.appearance.culling
         counts[culling] = view_renderer.stats["nodes_drawn"]
         tested[culling] = view_renderer.stats["boxes_tested"]
-        told[culling] = next(line for line in viewer._statistics() if line.startswith("culling"))
+        told[culling] = next(line for line in viewer.statistics_lines() if line.startswith("culling"))
     assert all((picture == pictures[0]).all() for picture in pictures)
     assert set(counts) == {"all", "tree", "frustum", "none", "always"}
     assert counts["none"] == 40 > counts["frustum"] == counts["tree"] >= counts["all"]

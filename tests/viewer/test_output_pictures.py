@@ -194,7 +194,7 @@ def test_statistics_tell_where_the_camera_is(viewer):
     viewer.view.look_from((1, 2, 3), (0, 0, 0))
     viewer.draw()
     viewer.statistics = "long"
-    assert any("camera at 1, 2, 3" in line for line in viewer._statistics())
+    assert any("camera at 1, 2, 3" in line for line in viewer.statistics_lines())
 
 
 def test_a_scene_of_no_instances_has_a_view():

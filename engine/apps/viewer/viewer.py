@@ -25,7 +25,7 @@ from ...stage.view_renderer import ViewRenderer
 from ...stage.views.fps import LOOKS, MOVES
 from .. import events
 from . import actions as viewer_actions
-from .animation_bar import draw_bar
+from .controls.animation_bar import draw_bar
 from .controls.controls import Controls
 from .controls.window_pixels import WindowPixels
 from .keymap import REPEATED, TYPED_KEYS, action_for

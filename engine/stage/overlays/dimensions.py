@@ -20,7 +20,7 @@ _GAP = 6
 
 
 def draw_dimensions(
-    frame: Frame, box: NDArray[np.float64], unit: str, scale: int, theme: Theme
+    frame: Frame, box: NDArray[np.float64], unit: str, scale: float, theme: Theme
 ) -> None:
     """Draw a box, (2, 3) in world space, and its lengths beside the outer edges of the picture."""
     if not np.isfinite(box).all():
@@ -56,7 +56,7 @@ def write_beside(
     text: str,
     edge: NDArray[np.float64],
     middle: NDArray[np.float64],
-    scale: int,
+    scale: float,
     theme: Theme,
 ) -> None:
     """Write a text on a block beside an edge, (2, 2) in pixels, away from a point."""
@@ -75,7 +75,7 @@ def write_beside(
 
 
 def write_on_block(
-    frame: Frame, text: str, corner: NDArray[np.float64], scale: int, theme: Theme
+    frame: Frame, text: str, corner: NDArray[np.float64], scale: float, theme: Theme
 ) -> None:
     """Write a text on a translucent block, whose top left corner is given in pixels."""
     font, canvas = text_font(scale), frame.canvas()

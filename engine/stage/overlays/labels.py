@@ -59,7 +59,7 @@ def draw_labels(
         draw_block(canvas, lines, corner=corner, scale=scale, theme=theme, is_table=True)
 
 
-def _draw_sizes(frame: Frame, staging: Staging, scale: int) -> None:
+def _draw_sizes(frame: Frame, staging: Staging, scale: float) -> None:
     """Draw the box of the model with its dimensions, and what is measured."""
     from .dimensions import draw_dimensions
     from .measurements import draw_measurement

@@ -113,8 +113,12 @@ class EditorWindow:
         self._files.offer_recovery()
         self._rendering = RenderDialog(self.workspace, self._files)
         self._entries = entries(self.workspace, self._files, hierarchy, self._rendering)
-        self._starts = StartChooser(self.workspace, self._files)
-        self._keys = KeysWindow(self.workspace, self._entries)
+        self._dialogs = (
+            StartChooser(self.workspace, self._files),
+            KeysWindow(self.workspace, self._entries),
+            self._files,
+            self._rendering,
+        )
         self.workspace.panels.offers_start = not path
         self._pixels = np.zeros((1, 1, 4), np.uint8)
         self._told: set[str] = set()
@@ -263,10 +267,8 @@ class EditorWindow:
         for name, panel in self._panels.items():
             if name not in workspace.panels.closed:
                 self._guarded(panel.draw)
-        self._guarded(self._starts.draw)
-        self._guarded(self._keys.draw)
-        self._guarded(self._files.draw)
-        self._guarded(self._rendering.draw)
+        for dialog in self._dialogs:
+            self._guarded(dialog.draw)
         self._guarded(lambda: press_keys(self._entries))
 
     def _guarded(self, lay_out: Callable[[], object]) -> None:

@@ -22,7 +22,7 @@ from ....stage.overlays.overlay import MARGIN, PADDING
 from ....stage.overlays.theme import Theme
 from ....stage.overlays.ui_scale import scale_for, scaled
 from ... import events
-from ..animation_bar import TimeState, draw_time_line, time_line
+from .animation_bar import TimeState, draw_time_line, time_line
 from ..help_panel import CommandPanel
 from ..kept_drawing import KeptDrawing
 from ..mouse import CLICK_REACH

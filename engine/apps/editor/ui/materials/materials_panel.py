@@ -59,7 +59,7 @@ class MaterialsPanel:
         """Lay the panel out."""
         self.is_waiting = False
         self._deadline = time.perf_counter() + PATIENCE
-        if begin_panel(self._workspace, "Materials"):
+        if begin_panel("Materials"):
             found = self._workspace.resources.entries()
             entries = [entry for entry in found if entry.kind == "material"]
             self._thumbnails.forget_unused(len(entries))

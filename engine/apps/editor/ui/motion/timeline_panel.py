@@ -70,7 +70,7 @@ class TimelinePanel:
 
     def draw(self) -> None:
         """Lay the panel out."""
-        if begin_panel(self._workspace, "Timeline"):
+        if begin_panel("Timeline"):
             self._draw_head()
             if imgui.begin_child("lanes"):
                 self._draw_lanes()

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...rendering.canvas import Canvas
-from ...rendering.fonts.font import Font
-from ...stage.overlays.theme import Theme
-from ...stage.overlays.ui_scale import scaled
+from ....rendering.canvas import Canvas
+from ....rendering.fonts.font import Font
+from ....stage.overlays.theme import Theme
+from ....stage.overlays.ui_scale import scaled
 
 HEIGHT = 4
 #: A time that is dragged stays before the end, which is the beginning again.

@@ -95,21 +95,22 @@ class EditorWindow:
         self._input = ImguiInput(self.window)
         self._scene = ScenePanel(self.workspace, self._painter)
         self._files = Files(self.workspace, self._painter)
-        self._resources = ResourcesPanel(self.workspace, self._painter)
+        resources = ResourcesPanel(self.workspace, self._painter)
         hierarchy = HierarchyPanel(self.workspace)
         properties = PropertiesPanel(self.workspace, self._files)
-        self._materials = MaterialsPanel(
+        materials = MaterialsPanel(
             self.workspace, self._painter, properties.draw_material_values
         )
         self._panels = {
             "Hierarchy": hierarchy,
             "Scene": self._scene,
             "Properties": properties,
-            "Resources": self._resources,
-            "Materials": self._materials,
+            "Resources": resources,
+            "Materials": materials,
             "Timeline": TimelinePanel(self.workspace),
             "Console": ConsolePanel(self.workspace),  # the last one is in front of its dock
         }
+        self._waiting = resources, materials  # for pictures of what they list
         self._files.offer_recovery()
         self._rendering = RenderDialog(self.workspace, self._files)
         self._entries = entries(self.workspace, self._files, hierarchy, self._rendering)
@@ -247,7 +248,7 @@ class EditorWindow:
         """Return whether the next picture will differ without any event."""
         if self._files.is_waiting or self._rendering.is_waiting:
             time.sleep(WAITING_SECONDS)
-        panels = self._resources, self._files, self._materials, self._rendering
+        panels = *self._waiting, self._files, self._rendering
         waits = any(panel.is_waiting for panel in panels)
         moves = self._scene.is_flying or self.workspace.is_moving
         return waits or moves or bool(self._late) or self.workspace.panels.pictures_to_focus > 0

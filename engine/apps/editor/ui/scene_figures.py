@@ -55,7 +55,9 @@ class SceneFigures:
         count = len(self._drawn)
         self.shows_rate = count > 1
         rate = f"{count / _PERIOD:.0f} fps" if self.shows_rate else "at rest"
-        objects = f"{stats['instances']:,} of {objects_of(self._workspace.scene):,} objects drawn"
+        held = objects_of(self._workspace.scene)
+        beside = max(stats["instances"] - held, 0)  # the grid, and the ground of a look
+        objects = f"{stats['instances_drawn'] - beside:,} of {held:,} objects drawn"
         draws = f"{stats['draws']:,} draw{'' if stats['draws'] == 1 else 's'}"
         triangles = f"{stats['triangles_drawn']:,} of {stats['triangles']:,} triangles"
         text = f"{rate}, {1e3 * self._seconds:.1f} ms, {objects}, {draws}, {triangles}"

@@ -103,7 +103,7 @@ def test_the_view_tells_how_many_objects_it_draws(editor):
 
 def test_a_material_is_dropped_on_what_is_under_the_mouse(editor):
     workspace = editor.workspace
-    panel = editor._materials
+    panel = editor._panels["Materials"]
     material = e3d.Material(color=(250, 0, 250), name="pink")
     workspace.resources.keep(material)
     materials_panel.imgui.set_window_focus("Materials")

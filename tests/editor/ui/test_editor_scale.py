@@ -55,7 +55,7 @@ def test_texts_lengths_and_thumbnails_have_the_scale(opened, scale):
     assert imguizmo.im_guizmo.get_style().translation_line_arrow_size == scale * arrow
     material = editor.workspace.resources.entries()[0].thing
     side = round(scale * PICTURE)
-    assert editor._resources._thumbnails.get(material).shape == (side, side, 4)
+    assert editor._panels["Resources"]._thumbnails.get(material).shape == (side, side, 4)
     assert scaled(8.0) == round(8 * scale)
 
 

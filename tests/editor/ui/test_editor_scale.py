@@ -55,7 +55,11 @@ def test_texts_lengths_and_thumbnails_have_the_scale(opened, scale):
     assert imguizmo.im_guizmo.get_style().translation_line_arrow_size == scale * arrow
     material = editor.workspace.resources.entries()[0].thing
     side = round(scale * PICTURE)
-    assert editor._panels["Resources"]._thumbnails.get(material).shape == (side, side, 4)
+    assert editor._panels["Resources"]._thumbnails._thumbnails.get(material).shape == (
+        side,
+        side,
+        4,
+    )
     assert scaled(8.0) == round(8 * scale)
 
 
@@ -73,14 +77,14 @@ def test_the_editor_follows_its_window_to_another_screen(opened):
 
 @pytest.mark.parametrize(("scale", "size"), [(1.0, (1000, 640)), (2.0, (1024, 700))])
 def test_numbers_of_properties_are_not_cut(opened, scale, size, monkeypatch):
-    editor, asked, rooms = opened(scale, size), imgui.drag_float3, []
+    editor, asked, rooms = opened(scale, size), imgui.drag_float, []
 
-    def drag(label, values, *others):
-        rooms.append(imgui.calc_item_width() / 3 - 2 * imgui.get_style().frame_padding.x)
+    def drag(label, value, *others):
+        rooms.append(imgui.calc_item_width() - 2 * imgui.get_style().frame_padding.x)
         rooms.append(imgui.calc_text_size("0.000").x)
-        return asked(label, values, *others)
+        return asked(label, value, *others)
 
-    monkeypatch.setattr(imgui, "drag_float3", drag)
+    monkeypatch.setattr(imgui, "drag_float", drag)
     editor.workspace.document.selection.set([find(editor, "Boiler")])
     settle(editor)
     assert rooms and all(room > text for room, text in zip(rooms[::2], rooms[1::2], strict=True))

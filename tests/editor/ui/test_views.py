@@ -6,6 +6,7 @@ from editor.ui.editor_hands import click, do, drag, find, press, scene_corner, s
 
 import engine3d as e3d
 from engine3d import events
+from engine3d.apps.editor.ui.keys_window import KeysWindow
 from engine3d.apps.editor.ui.view.clickable_axes import MARGIN
 from engine3d.apps.editor.ui.view.ground_grid import GroundGrid, grid_sphere
 from engine3d.apps.editor.ui.view.standard_views import STANDARD_VIEWS
@@ -197,8 +198,9 @@ def test_the_list_of_keys_opens_and_closes(editor):
     assert (opened != before).sum() > 10_000
     press(editor, "Escape")
     assert (settle(editor) == before).all()
-    menus = {menu for _, _, menu in editor._keys._rows}
-    assert menus == {"File", "Edit", "View", "Tools", "Help"}
+    (keys,) = (one for one in editor._dialogs if isinstance(one, KeysWindow))
+    menus = {menu for _, _, menu in keys._rows}
+    assert menus == {"File", "Edit", "View", "Tools", "Motion", "Help"}
 
 
 def test_a_click_on_the_ball_of_axes_looks_along_one(fresh):

@@ -98,9 +98,7 @@ class EditorWindow:
         resources = ResourcesPanel(self.workspace, self._painter)
         hierarchy = HierarchyPanel(self.workspace)
         properties = PropertiesPanel(self.workspace, self._files)
-        materials = MaterialsPanel(
-            self.workspace, self._painter, properties.draw_material_values
-        )
+        materials = MaterialsPanel(self.workspace, self._painter, properties.draw_material_values)
         self._panels = {
             "Hierarchy": hierarchy,
             "Scene": self._scene,

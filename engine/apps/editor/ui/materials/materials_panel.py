@@ -16,9 +16,11 @@ from ....imgui_painter.imgui_painter import ImguiPainter
 from ...resource_list import Entry
 from ..panel_layout import begin_panel
 from ..shown_thumbnails import ShownThumbnails
+from ..style import scaled
 from ..workspace import Workspace
 from . import material_actions as actions
 
+#: Side of a thumbnail at scale 1.
 PICTURE = 64
 #: Seconds for thumbnails per frame; the rest follow in later frames.
 PATIENCE = 0.02
@@ -49,7 +51,7 @@ class MaterialsPanel:
         draw_values: Callable[[Material], object],
     ) -> None:
         self._workspace = workspace
-        self._thumbnails = ShownThumbnails(painter, PICTURE)
+        self._thumbnails = ShownThumbnails(painter, round(scaled(PICTURE)))
         self._draw_values = draw_values
         self._chosen: Material | None = None
         self._deadline = 0.0
@@ -99,10 +101,10 @@ class MaterialsPanel:
 
     def _draw_list(self, entries: list[Entry]) -> None:
         """Lay out the pictures in rows, of which only visible ones are drawn."""
-        style = imgui.get_style()
-        cell = PICTURE + 2.0 * style.frame_padding.x + style.item_spacing.x
+        style, side = imgui.get_style(), scaled(PICTURE)
+        cell = side + 2.0 * style.frame_padding.x + style.item_spacing.x
         across = max(int(imgui.get_content_region_avail().x / cell), 1)
-        height = PICTURE + imgui.get_text_line_height_with_spacing() + 2 * style.frame_padding.y
+        height = side + imgui.get_text_line_height_with_spacing() + 2 * style.frame_padding.y
         clipper = imgui.ListClipper()
         clipper.begin(-(-len(entries) // across), height + style.item_spacing.y)
         while clipper.step():
@@ -113,13 +115,13 @@ class MaterialsPanel:
                     imgui.pop_id()
 
     def _draw_cell(self, entry: Entry, offset: float, height: float) -> None:
-        material = entry.thing
+        material, side = entry.thing, scaled(PICTURE)
         if offset:
             imgui.same_line(offset)
         imgui.begin_group()
         place = imgui.get_cursor_screen_pos()
         chosen = material is self._chosen
-        if imgui.selectable("##chosen", chosen, 0, (PICTURE, height))[0]:
+        if imgui.selectable("##chosen", chosen, 0, (side, height))[0]:
             self._chosen = material
         actions.drag(material)
         users = f"{entry.users:,} user{'' if entry.users == 1 else 's'}"
@@ -128,11 +130,11 @@ class MaterialsPanel:
         number, waits = self._thumbnails.number(material, self._deadline)
         self.is_waiting |= waits
         if number:
-            high = place.x + PICTURE, place.y + PICTURE
+            high = place.x + side, place.y + side
             lines.add_image(imgui.ImTextureRef(number), (place.x, place.y), high)
-        lines.push_clip_rect((place.x, place.y), (place.x + PICTURE, place.y + height), True)
+        lines.push_clip_rect((place.x, place.y), (place.x + side, place.y + height), True)
         text = imgui.get_color_u32(imgui.Col_.text if material.name else imgui.Col_.text_disabled)
-        lines.add_text((place.x, place.y + PICTURE), text, entry.name)
+        lines.add_text((place.x, place.y + side), text, entry.name)
         lines.pop_clip_rect()
         imgui.end_group()
 

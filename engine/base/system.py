@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 _BINARY = getattr(os, "O_BINARY", 0)  # prevents Windows from changing line ends
 _OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
-_TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)  # errors that mean the file is already locked
+# errors that mean the file is already locked; 0 is that of wine
+_TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK, 0)
 # errors of file systems that cannot sync
 _NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)
 _SHORT = 0.5  # seconds

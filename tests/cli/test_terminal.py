@@ -8,6 +8,8 @@ import pytest
 
 from engine3d.apps.cli import main
 
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no such names on Windows")
+
 EVIL = "\x1b]0;owned\x07\x1b[31mred"
 SHOWN = r"\x1b]0;owned\x07\x1b[31mred"
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"

@@ -32,7 +32,7 @@ def viewer(tmp_path):
     for folder in ("parts", "tests", ".cache"):
         (tmp_path / folder).mkdir()
     for name in ("b.obj", "a.OBJ", "cart.stl", "notes.txt", "parts/wheel.obj", ".old.obj"):
-        (tmp_path / name).write_text(TRIANGLE)
+        (tmp_path / name).write_text(TRIANGLE, newline="\n")  # of a known size
     path = tmp_path / "b.obj"
     view_renderer = ViewRenderer(open_model(path), Settings({}), SIZE)
     files = ModelFiles([path], remembered=True)

@@ -148,7 +148,6 @@ class Workspace:
         Width over height of the picture.
     changes : int
         Grows whenever something was done that may show.
-    resources : ResourceList
     recent : RecentFiles
     clipboard : Clipboard
     wants_exit : bool
@@ -179,7 +178,6 @@ class Workspace:
         self.plays, self.moments = False, 0
         self._autosave = Autosave(document)
         self.hierarchy = Hierarchy(document.scene)
-        self.resources = document.resources
         self.view = Viewpoint(np.zeros(3), 10.0)
         self.orbit = OrbitController(self.view)
         self.through = ThroughCamera(self.view)
@@ -190,6 +188,11 @@ class Workspace:
     def scene(self) -> Scene:
         """The scene that is edited."""
         return self.document.scene
+
+    @property
+    def resources(self) -> ResourceList:
+        """What the document holds and can use."""
+        return self.document.resources
 
     @property
     def console(self) -> Console:

@@ -35,6 +35,7 @@ from ..hierarchy import Hierarchy
 from ..history import Command
 from ..new_things.starts import STARTS, Start, empty
 from ..recovery import Recovery
+from ..resource_list import ResourceList
 from ..value_commands import SetValues
 from .view.ground_grid import with_grid
 from .view.standard_views import look_from

@@ -159,10 +159,16 @@ def test_a_message_that_comes_after_its_window_closed_ends_nothing(screen):
     assert other.returncode == 1 and "X_MapWindow" in other.stderr and not other.stdout
 
 
+def greens(pixels):
+    """How many pixels are greener than they are red or blue: what is right is said in green."""
+    red, green, blue = np.moveaxis(pixels.astype(int), -1, 0)
+    return int((green > np.maximum(red, blue) + 30).sum())
+
+
 def test_lessons_are_read_played_with_and_checked(screen, tmp_path):
     with Viewer(screen, tmp_path, "lines", command="learn") as desktop:
+        until(lambda: desktop.title == "3. Lines - step 1 of 6")
         first = desktop.settle()
-        assert desktop.title == "3. Lines - step 1 of 6"
         assert (desktop.settle_after("Right") != first).sum() > 1000
         assert desktop.title == "3. Lines - step 2 of 6"
         assert (desktop.settle_after("Left") == first).all()
@@ -170,8 +176,7 @@ def test_lessons_are_read_played_with_and_checked(screen, tmp_path):
         assert (desktop.settle_after("Down") == first).all()
         wrong = desktop.settle_after("4", "9", "Return")
         right = desktop.settle_after("BackSpace", "BackSpace", "5", "0", "Return")
-        assert (right == (130, 210, 130)).all(axis=2).sum() > 10
-        assert not (wrong == (130, 210, 130)).all(axis=2).any()
+        assert greens(right) > 10 and not greens(wrong)
         assert (desktop.settle_after("h") != right).sum() > 10_000
         assert (desktop.settle_after("h") == right).all()
         desktop.settle_after("End")
@@ -276,7 +281,8 @@ def test_a_small_window_lists_commands_and_tells_what_is_wrong_with_the_file(scr
         desktop.settle_after("Return")
         assert (desktop.settle_after("Escape") != plain).any()  # its edges
         desktop.settle_after("w")
-        assert (desktop.settle_after("w") == plain).all()
+        desktop.do("key", "w")
+        until(lambda: (desktop.look() == plain).all())  # once what W says has gone
         (tmp_path / "cube.obj").write_text("v 1 2\n")
         desktop.wait_for_change(plain)
         assert (desktop.settle() != plain).any()

@@ -7,7 +7,7 @@ In: user actions. Out: the changed state; the loop (`viewer.Viewer`) draws a fra
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -86,8 +86,7 @@ class ViewerState:
         self.sampling = sampling or Sampling(view_renderer.samples)
         self.inspector = Inspector(self)
         self._panel: Panel | None = None
-        self._changed = True
-        self._controls_changed = False
+        self._stale: Literal["", "controls", "frame"] = "frame"
 
     @property
     def panel(self) -> Panel | None:
@@ -105,15 +104,15 @@ class ViewerState:
     @property
     def changed(self) -> bool:
         """Whether anything changed since the last frame."""
-        return self._changed
+        return self._stale == "frame"
 
     def redraw(self) -> None:
         """Request a new frame."""
-        self._changed = True
+        self._stale = "frame"
 
     def redraw_controls(self) -> None:
         """Request that what lies over and beside the frame is drawn anew, but not the frame."""
-        self._controls_changed = True
+        self._stale = self._stale or "controls"
 
     def say(self, message: str) -> None:
         """Show a message for a time that depends on its length."""

@@ -126,7 +126,7 @@ class Viewer(ViewerState):
         drawn = (self.changed or rests) and self.running and not self.window.minimised
         if drawn:
             self.draw(self.sampling.in_motion() if self.changed else self.sampling.at_rest())
-        elif self._controls_changed and self.frame is not None and not self.window.minimised:
+        elif self._stale == "controls" and self.frame is not None and not self.window.minimised:
             self._show(self._over_frame())
         idle = not self.lively
         name = self.view_renderer.viewed.title
@@ -177,7 +177,7 @@ class Viewer(ViewerState):
         start = clock.monotonic()
         picture = self.controls.arrange().picture
         self.view_renderer.resize((picture.width, picture.height))
-        self._changed = False
+        self._stale = ""
         outputs = ("color",) if self.selected is None else OUTLINE_OUTPUTS
         self.frame = self.view_renderer.draw(self.view, self.time, outputs)
         if self.selected is not None and not self.view_renderer.split:
@@ -191,7 +191,8 @@ class Viewer(ViewerState):
 
     def _show(self, pixels) -> None:
         """Show the window's pixels."""
-        self._controls_changed = False
+        if self._stale == "controls":
+            self._stale = ""
         self.window.present(pixels)
         if self.window.writes_text:
             self.window.write(self._overlay_lines())

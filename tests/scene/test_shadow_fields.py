@@ -5,7 +5,7 @@ import math
 import pytest
 
 import engine3d as e3d
-from engine3d.apps.editor.node_commands import copy_below
+from engine3d.apps.editor.node_commands import copy_nodes
 from engine3d.apps.editor.scene_state import SceneState
 
 FIELDS = {
@@ -60,7 +60,7 @@ def test_gltf_files_tell_that_they_do_not(tmp_path):
 def test_copies_of_nodes_have_the_same_switches():
     scene = scene_of_shadows()
     for node in scene.nodes[3:]:
-        twin = copy_below(scene, node, None)
+        (twin,) = copy_nodes(scene, {node: None})
         assert (twin.cast_shadows, twin.receive_shadows) == (
             node.cast_shadows,
             node.receive_shadows,

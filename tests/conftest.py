@@ -19,6 +19,8 @@ def pytest_configure(config):
     skip_where_files_cannot_be_made()
     # The options of whoever runs the tests are none of the tests'.
     os.environ["XDG_CONFIG_HOME"] = os.devnull
+    # Nor is their language: this list comes before the locale.
+    os.environ["LANGUAGE"] = "en"
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
         _keep_bytecode(config)
     # Taken away from runs of pytest that tests start.

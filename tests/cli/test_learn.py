@@ -42,23 +42,6 @@ def english(monkeypatch):
     monkeypatch.setenv("LANG", "en_GB.UTF-8")
 
 
-@pytest.mark.parametrize(
-    ("environment", "language"),
-    [
-        ({}, "en"),
-        ({"LANG": "fr_FR.UTF-8"}, "fr"),
-        ({"LANG": "fr"}, "fr"),
-        ({"LANG": "de_DE.UTF-8"}, "en"),
-        ({"LANG": "fr_FR.UTF-8", "LC_ALL": "en_US.UTF-8"}, "en"),
-        ({"LANG": "en_US.UTF-8", "LC_MESSAGES": "fr_CA.UTF-8"}, "fr"),
-        ({"LANG": "en_US.UTF-8", "LANGUAGE": "fr:en"}, "fr"),
-        ({"LANGUAGE": "fr"}, "en"),
-    ],
-)
-def test_the_language_is_that_of_the_locale(environment, language):
-    assert learn.usual_language(environment) == language
-
-
 def test_french_titles_are_those_of_the_pages(capsys, monkeypatch):
     pages = LESSONS[0].parents[1] / "docs" / "course" / "fr"
     headings = [(pages / f"{lesson.stem}.md").read_text("utf-8") for lesson in LESSONS]

@@ -37,6 +37,7 @@ class Command(NamedTuple):
 
 def _add_edit(command: argparse.ArgumentParser) -> None:
     from .. import values
+    from ..options import language_options
 
     command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
     command.add_argument(
@@ -45,6 +46,7 @@ def _add_edit(command: argparse.ArgumentParser) -> None:
         metavar="WxH",
         help="size of the window in pixels; 1600x900 by default",
     )
+    language_options.add(command)
 
 
 def _add_info(command: argparse.ArgumentParser) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 
+from ....base.language import speaking
 from ....errors import Engine3DError
+from ..options.language_options import language_of
 
 
 def edit(args: argparse.Namespace) -> int:
@@ -22,5 +24,5 @@ def edit(args: argparse.Namespace) -> int:
         lacks = f"it does not load: {error}" if is_there else "pip install 'engine3d[editor]'"
         raise Engine3DError(f"the editor needs Dear ImGui: {lacks}") from None
     size = {"size": args.size} if args.size else {}
-    with EditorWindow(args.model or "", **size) as editor:
+    with speaking(language_of(args)), EditorWindow(args.model or "", **size) as editor:
         return editor.run()

@@ -14,7 +14,7 @@ import os
 import runpy
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
 from types import ModuleType
@@ -25,6 +25,7 @@ from ....errors import DisplayError
 from ...viewer.lesson_window import Lesson, LessonWindow
 from ...viewer.window import Window
 from ..arguments import meant
+from ..options.language_options import language_of
 from ..usage import UsageError
 from . import french_lessons
 
@@ -42,7 +43,7 @@ STEP = {"en": "step {} - arrows: steps, N P: lessons", "fr": french_lessons.STEP
 def learn(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     programs = find_programs()
-    language = args.language or usual_language(os.environ)
+    language = language_of(args)
     if args.list:
         for number in range(len(programs)):
             say(title_of(programs, number, language))
@@ -63,15 +64,6 @@ def say(text: str) -> None:
     """Print a line; letters missing in the terminal's encoding become question marks."""
     encoding = sys.stdout.encoding or "utf-8"
     print(text.encode(encoding, "replace").decode(encoding))
-
-
-def usual_language(environment: Mapping[str, str]) -> str:
-    """Return the language of the user's locale if lessons exist in it; else English."""
-    names = (environment.get(name, "") for name in ("LC_ALL", "LC_MESSAGES", "LANG"))
-    locale = next(filter(None, names), "")
-    # LANGUAGE overrides the locale, unless that is C.
-    chosen = (environment.get("LANGUAGE") or locale) if locale else ""
-    return "fr" if chosen.split(":")[0].lower().startswith("fr") else "en"
 
 
 def find_programs() -> list[Path]:

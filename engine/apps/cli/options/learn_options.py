@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-LANGUAGES = ("en", "fr")
+from . import language_options
 
 
 def add(command) -> None:
@@ -16,11 +16,7 @@ def add(command) -> None:
     )
     command.add_argument("--list", action="store_true", help="list the lessons")
     command.add_argument("--path", action="store_true", help="print where the program is")
-    command.add_argument(
-        "--language",
-        choices=LANGUAGES,
-        help="of titles and captions (default: French where the locale is, else English)",
-    )
+    language_options.add(command)
     command.add_argument(
         "-o",
         "--output",

@@ -10,6 +10,7 @@ import os
 from typing import TYPE_CHECKING
 
 from ...base.files.folder_listing import Item, list_folder
+from ...base.language import translated
 from ...errors import printable
 from ..desktop.recent_files import RecentFiles
 from .list_panels import Panel, Row
@@ -20,8 +21,9 @@ if TYPE_CHECKING:
     from .state import ViewerState
 
 COLUMNS, ROWS = 72, 16
-_HINT = "Enter, click: open   Esc: close   type: filter   Tab: "
 UP = ".."
+#: Each unit is a thousand of the one before.
+SIZES = ("{size:.3g} B", "{size:.3g} kB", "{size:.3g} MB", "{size:.3g} GB", "{size:.3g} TB")
 
 
 class _FilePanel(Panel):
@@ -37,8 +39,8 @@ class _FilePanel(Panel):
         self.chosen = 0
 
     def heads(self, left_out: int) -> list[str]:
-        more = f"  ({len(self.rows())}, wheel: more)" if left_out else ""
-        return [self.title + more, f"filter: {self.filter}_"]
+        title = translated(self.title) + self.count_told(left_out)
+        return [title, translated("filter: {text}_", text=self.filter)]
 
     def key(self, event) -> bool:
         """Handle all keys but those with Ctrl and the window's own, such as F11."""
@@ -88,7 +90,8 @@ class _FilePanel(Panel):
 class FolderPanel(_FilePanel):
     """The folders and models in a folder, initially that of the shown file."""
 
-    hint = _HINT + "opened before"
+    title = "Open a model"
+    hint = "Enter, click: open   Esc: close   type: filter   Tab: opened before"
 
     def __init__(self, viewer: ViewerState, opening: Opening):
         super().__init__(viewer, opening)
@@ -117,7 +120,7 @@ class FolderPanel(_FilePanel):
         path = printable(self.folder)
         path = path if len(path) <= COLUMNS else ".." + path[2 - COLUMNS :]
         reasons = [self._listing.reason] if self._listing.reason else []
-        return [f"Open a model{title}", path, *others, *reasons]
+        return [title, path, *others, *reasons]
 
     def set_filter(self, text: str) -> None:
         """Show only names that contain a text; a folder name that ends with / opens it."""
@@ -159,7 +162,7 @@ class RecentPanel(_FilePanel):
     """The recently opened files."""
 
     title = "Opened before"
-    hint = _HINT + "folders"
+    hint = "Enter, click: open   Esc: close   type: filter   Tab: folders"
 
     def __init__(self, viewer: ViewerState, opening: Opening):
         super().__init__(viewer, opening)
@@ -184,8 +187,8 @@ class RecentPanel(_FilePanel):
 
 def _size(item: Item) -> str:
     """Return a file's size with at most four digits."""
-    size, units = float(item.size), ["B", "kB", "MB", "GB", "TB"]
+    size, units = float(item.size), [*SIZES]
     while size >= 1000 and len(units) > 1:
         size /= 1000
         del units[0]
-    return f"{size:.3g} {units[0]}"
+    return translated(units[0], size=size)

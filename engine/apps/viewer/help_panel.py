@@ -9,6 +9,7 @@ import textwrap
 from collections.abc import Callable
 from typing import TypeAlias
 
+from ...base.language import translated, translated_keys
 from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
 from ...stage.overlays.overlay import PADDING, place, text_scale
@@ -27,6 +28,7 @@ _COLUMNS = (
     ("View", "Mouse"),
     ("Overlays", "Files", "Window"),
 )
+_MOVEMENTS = {name for name, _ in (*GESTURES, *WALKING_GESTURES)}
 #: As wide as the gap between a key and its action, and that between two columns of the help.
 KEY_GAP, GUTTER = "nn", "nnn"
 
@@ -86,7 +88,8 @@ def help_lines(
     columns: int, rows: int, page: int = 0, key_at: KeyAt | None = None
 ) -> tuple[list[str], int]:
     """Return one page of the help as lines of text, and how many pages there are."""
-    pages = _pages(help_sections(key_at), _Characters(), columns, rows)
+    sections = [_in_language(section) for section in help_sections(key_at)]
+    pages = _pages(sections, _Characters(), columns, rows)
     shown = pages[min(page, len(pages) - 1)]
     indent = _indent(shown, _Characters())
     lines = [f"{key:{indent}}{text}" if text else key for key, text in shown]
@@ -132,18 +135,35 @@ def draw_help(
     font = text_font(scale or text_scale(canvas))
     inset = 5 * PADDING
     room, rows = canvas.width - inset, (canvas.height - inset) // font.line_height
-    columns = help_columns(key_at)
+    columns = [_in_language(column) for column in help_columns(key_at)]
     if _whole_width(columns, font) <= room and max(map(len, columns)) <= rows:
         _draw_columns(canvas, columns, font, theme)
         return 1
-    pages = _pages(help_sections(key_at), font, room, rows)
+    sections = [_in_language(section) for section in help_sections(key_at)]
+    pages = _pages(sections, font, room, rows)
     page = min(page, len(pages) - 1)
     _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], font, theme)
     return len(pages)
 
 
+def _in_language(rows: list[Row]) -> list[Row]:
+    """Return rows as they are drawn."""
+    return [(_keys(key) if text else translated(key), translated(text)) for key, text in rows]
+
+
+def _keys(text: str) -> str:
+    """Return what to press or to move: a gesture, or keys with spaces between them."""
+    if text in _MOVEMENTS:
+        return translated(text)
+    return " ".join(map(translated_keys, text.split(" ")))
+
+
 def _more(page: int, count: int) -> str:
-    return f"{page + 1} of {count}; H: " + ("more" if page + 1 < count else "close")
+    return translated(
+        "{page} of {count}; H: more" if page + 1 < count else "{page} of {count}; H: close",
+        page=page + 1,
+        count=count,
+    )
 
 
 def _pages(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...base.language import translated
 from ...rendering.fonts.fitting import most_kept
 from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
@@ -67,14 +68,21 @@ class Panel:
 
     def heads(self, left_out: int) -> list[str]:
         """Return the lines above the rows; not all of them may fit."""
-        return [self.title + (f"  ({len(self.rows())}, wheel: more)" if left_out else "")]
+        return [translated(self.title) + self.count_told(left_out)]
+
+    def count_told(self, left_out: int) -> str:
+        """Return what the title says of rows that do not fit."""
+        return (
+            "  " + translated("({count}, wheel: more)", count=len(self.rows())) if left_out else ""
+        )
 
     def draw(self, canvas, scale: int, theme: Theme) -> None:
         """Draw the rows that fit, from the first visible one."""
         font = text_font(scale)
         self._row_height = font.line_height
         seen, heads, blank = self._fitting_rows(canvas)
-        wide = self._width([*heads, self.hint], seen, font)
+        hint = translated(self.hint)
+        wide = self._width([*heads, hint], seen, font)
         wide = max(min(wide, canvas.width - 2 * MARGIN - 2 * PADDING), 1)
         width = wide + 2 * PADDING
         height = (len(heads) + len(seen) + blank + 1) * self._row_height + 2 * PADDING
@@ -85,7 +93,7 @@ class Panel:
             y = top + PADDING + (len(heads) + self.chosen - self._first) * self._row_height
             bar = (*theme.title[:3], BAR_ALPHA)
             canvas.rectangle(left, y, width, self._row_height, bar)
-        rows = [Row(head) for head in heads] + seen + [Row("")] * blank + [Row(self.hint)]
+        rows = [Row(head) for head in heads] + seen + [Row("")] * blank + [Row(hint)]
         colors = [theme.title] * len(heads) + [theme.text] * (len(seen) + blank) + [theme.key]
         for number, (row, color) in enumerate(zip(rows, colors, strict=True)):
             x, y = left + PADDING, top + PADDING + number * self._row_height
@@ -103,7 +111,7 @@ class Panel:
     def lines(self) -> list[str]:
         """Return the list as lines of text."""
         rows = [f"{row.text}  {row.detail}".rstrip() for row in self.rows()]
-        return [*self.heads(0), *rows, self.hint]
+        return [*self.heads(0), *rows, translated(self.hint)]
 
     def _fitting_rows(self, canvas) -> tuple[list[Row], list[str], int]:
         """Return the rows that fit, the lines above them, and the number of blank ones below."""

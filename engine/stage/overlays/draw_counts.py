@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...base.language import translated, translated_choice, translated_count
+
 COUNTED = ("nodes", "clusters", "triangles")
 #: Titles of the columns, and suffixes of their counters.
 STAGES = {
@@ -16,6 +18,14 @@ STAGES = {
     "drawn": "_drawn",
 }
 
+#: What tests found the nodes in view, by the culling method; that of the others is the last.
+TESTS = {
+    "none": "nothing is left out: no box was tested",
+    "frustum": "{tested}, one by one",
+    "tree": "{tested}, by the tree",
+}
+EVERY_TEST = "{tested}, by the tree; then parts of meshes, and what is hidden"
+
 
 def count_names() -> set[str]:
     """Return the names of all counters of the table."""
@@ -24,24 +34,23 @@ def count_names() -> set[str]:
 
 def count_table(stats: dict[str, Any]) -> list[str]:
     """Return the table: a header line, and a line for each counter."""
-    rows = [f"{'':<9}" + "".join(f"{stage:>12}" for stage in STAGES)]
+    rows = [f"{'':<9}" + "".join(f"{translated(stage):>12}" for stage in STAGES)]
     for what in COUNTED:
         numbers = (stats[what + ending] for ending in STAGES.values())
-        rows.append(f"{what:<9}" + "".join(f"{number:>12,}" for number in numbers))
+        rows.append(f"{translated(what):<9}" + "".join(f"{number:>12,}" for number in numbers))
     return rows
 
 
 def told_tests(stats: dict[str, Any], culling: str) -> str:
     """Return a sentence on how many tests found the nodes in view."""
-    tested = stats["boxes_tested"]
-    boxes = f"{tested:,} box{'' if tested == 1 else 'es'} tested"
-    how = {
-        "none": "nothing is left out: no box was tested",
-        "frustum": f"{boxes}, one by one",
-        "tree": f"{boxes}, by the tree",
-    }
-    text = how.get(culling, f"{how['tree']}; then parts of meshes, and what is hidden")
-    return f"culling {culling}: {text}"
+    tested = translated_count(
+        "{count:,} box tested", "{count:,} boxes tested", stats["boxes_tested"]
+    )
+    return translated(
+        "culling {method}: {effect}",
+        method=translated_choice("culling", culling),
+        effect=translated(TESTS.get(culling, EVERY_TEST), tested=tested),
+    )
 
 
 def count_line(stats: dict[str, Any]) -> str:

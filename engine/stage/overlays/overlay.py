@@ -9,6 +9,7 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import Any
 
+from ...base.language import translated
 from ...rendering.canvas import Canvas
 from ...rendering.fonts.font import Font
 from ..views.camera_view import AnyView
@@ -102,10 +103,16 @@ def place(canvas: Canvas, width: int, height: int, corner: str) -> tuple[int, in
 
 def short_statistics(times: FrameTimes, stats: dict[str, Any]) -> str:
     """Return a one-line summary of the last frame's statistics."""
-    drawn, total = stats["triangles_drawn"], stats["triangles"]
-    parts = [f"{times.drawing_seconds * 1000:.1f} ms to draw", f"{drawn:,} of {total:,} triangles"]
+    parts = [
+        translated("{ms:.1f} ms to draw", ms=times.drawing_seconds * 1000),
+        translated(
+            "{drawn:,} of {total:,} triangles",
+            drawn=stats["triangles_drawn"],
+            total=stats["triangles"],
+        ),
+    ]
     if times.count > 1:
-        parts.insert(0, f"{1.0 / times.seconds:.0f} frames per second")
+        parts.insert(0, translated("{rate:.0f} frames per second", rate=1.0 / times.seconds))
     return ", ".join(parts)
 
 
@@ -136,9 +143,11 @@ def statistics_lines(
     """
     rate = 1.0 / seconds if seconds > 0.0 else 0.0
     lines = [
-        f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
-        f"{size[0]}x{size[1]}" + (f", {samples} samples per pixel" if samples > 1 else ""),
+        translated("{rate:7.1f} frames/s {ms:8.2f} ms", rate=rate, ms=seconds * 1000),
+        f"{size[0]}x{size[1]}",
     ]
+    if samples > 1:
+        lines[1] += translated(", {count} samples per pixel", count=samples)
     if place:
         lines[1] += f"; {place}"
     tabled = count_names()
@@ -152,7 +161,7 @@ def statistics_lines(
         if name in tabled or name == "plan":
             continue  # the plan's names are only for developers of the rasteriser
         text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
-        entries.append(f"{name.replace('_', ' '):<19}{text:>11}")
+        entries.append(f"{translated(name.replace('_', ' ')):<19}{text:>11}")
     return lines + _in_two_columns(entries)
 
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...base.language import translated
 from ...model.navigation import NavigationGrid, Walker
 from ...model.scene.orbiting import home_axes
 from ...model.scene.scene import Scene
@@ -105,7 +106,10 @@ def _turned(scene: Scene, axes: np.ndarray) -> Scene:
 def told(grid: NavigationGrid) -> str:
     """Return a message about a grid."""
     rows, columns = grid.shape
-    return (
-        f"navigation grid: {columns} x {rows} = {rows * columns:,} cells, "
-        f"{int(grid.walkable.sum()):,} places to stand"
+    return translated(
+        "navigation grid: {columns} x {rows} = {cells:,} cells, {places:,} places to stand",
+        columns=columns,
+        rows=rows,
+        cells=rows * columns,
+        places=int(grid.walkable.sum()),
     )

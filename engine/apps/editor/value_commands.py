@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ...base.held_values import kept
+from ...base.language import translated, translated_count
 from ...model.materials.material import Material, put_states_color, states_color
 from ...model.scene.cameras import Camera
 from ...model.scene.lights import DirectLight
@@ -31,7 +32,11 @@ class SetValues(Command):
         self._things = tuple(things)
         self._values = kept(dict(values))  # the caller may keep modifying its own
         self.nodes = tuple(thing for thing in self._things if isinstance(thing, Node))
-        self.label = label or f"Set {', '.join(self._values)} of {_named(self._things)}"
+        self.label = label or translated(
+            "Set {values} of {things}",
+            values=", ".join(self._values),
+            things=_named(self._things),
+        )
         self._old: list[tuple[Any, str, Any, bool]] = []
 
     def do(self) -> None:
@@ -72,6 +77,6 @@ def check(thing: Any) -> None:
 
 def _named(things: Sequence[Any]) -> str:
     if len(things) != 1:
-        return f"{len(things)} things"
+        return translated_count("{count:,} thing", "{count:,} things", len(things))
     name = getattr(things[0], "name", "")
     return repr(name) if name else type(things[0]).__name__

@@ -13,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 from imgui_bundle import imgui, imguizmo
 
+from ....base.language import translated
 from ....rendering.canvas import Canvas
 from ....stage.overlays.lettering import heading_font
 from ... import events
@@ -159,7 +160,8 @@ class EditorWindow:
             self._has_told = True
             canvas = Canvas(self.window.size)
             canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
-            canvas.text(16, 16, RUNNING, "white", font=heading_font(1), background=(150, 40, 40))
+            said = translated(RUNNING)
+            canvas.text(16, 16, said, "white", font=heading_font(1), background=(150, 40, 40))
             self.window.present(canvas)
         closes = any(isinstance(event, events.CloseRequested) for event in happened)
         return closes or any(map(_is_stop_key, happened))

@@ -9,12 +9,12 @@ import os
 import time
 from collections.abc import Callable
 
-from imgui_bundle import imgui
-
 from ....base.files.folder_listing import Item, Listing, list_folder
+from ....base.language import translated
 from ...desktop.recent_files import RecentFiles
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..file_pictures import FilePictures
+from .translated_imgui import imgui
 
 _SIZE = 62, 30  # in heights of the font
 PICTURE = 192
@@ -117,9 +117,9 @@ class FileDialog:
         if entered:
             self._go(folder)
         imgui.set_next_item_width(imgui.get_font_size() * 12)
-        if imgui.begin_combo("##kind", self._kind):
+        if imgui.begin_combo("##kind", translated(self._kind)):
             for kind in self._kinds:
-                if imgui.selectable(kind, kind == self._kind)[0]:
+                if imgui.selectable(translated(kind), kind == self._kind)[0]:
                     self._kind = kind
             imgui.end_combo()
         imgui.same_line()

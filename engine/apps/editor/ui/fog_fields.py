@@ -8,15 +8,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from imgui_bundle import imgui
-
+from ....base.language import translated_choice
 from ....model.materials.display_colors import display_color
 from ....model.scene.fog import ExponentialFog, Fog
 from ....model.scene.scene import Scene
 from ....stage.chosen_surroundings import fog_color
+from .translated_imgui import imgui
 
 _KINDS = {type(None): "none", Fog: "linear", ExponentialFog: "exponential"}
 _LEAST = 1e-4  # between near and far
+_LABELS = {"near": "Fog near", "far": "Fog far", "density": "Fog density"}
 
 
 def draw_fog(
@@ -38,9 +39,10 @@ def draw_fog(
         Called after each field that can be dragged.
     """
     now = scene.fog
-    if imgui.begin_combo("Fog", _KINDS[type(now)]):
+    if imgui.begin_combo("Fog", translated_choice("fog", _KINDS[type(now)])):
         for kind, name in _KINDS.items():
-            if imgui.selectable(name, isinstance(now, kind))[0] and not isinstance(now, kind):
+            chosen = imgui.selectable(translated_choice("fog", name), isinstance(now, kind))[0]
+            if chosen and not isinstance(now, kind):
                 assign(_new_fog(kind, scene, radius))
         imgui.end_combo()
     if now is None:
@@ -51,7 +53,7 @@ def draw_fog(
         assign(replace(now, color=tuple(round(255 * part) for part in color)))
     for name, value in _numbers_of(now).items():
         speed = max(abs(value) * 0.01, 1e-5)
-        changed, number = imgui.drag_float(f"Fog {name}", value, speed, 0.0, 1e9, "%.4g")
+        changed, number = imgui.drag_float(_LABELS[name], value, speed, 0.0, 1e9, "%.4g")
         follow_drag()
         if changed:
             assign(_with(now, name, max(number, 0.0)))

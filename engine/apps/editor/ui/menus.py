@@ -8,11 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from imgui_bundle import imgui
-
 from . import selection_actions as actions
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
+from .translated_imgui import imgui
 from .workspace import PANELS, Workspace
 
 

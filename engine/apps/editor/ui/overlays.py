@@ -6,7 +6,6 @@ In: the shown frame, and the scene. Out: ImGui lines, drawn without depth test.
 from __future__ import annotations
 
 import numpy as np
-from imgui_bundle import imgui
 
 from ....base import linalg
 from ....model.geometry.mesh import Mesh
@@ -14,6 +13,7 @@ from ....model.scene.cameras import Camera, far_depth
 from ....model.scene.instances import InstancedMesh
 from ....model.scene.nodes import Node
 from ....rendering.frame import Frame
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _EDGES = [(a, b) for a in range(8) for b in (a | 1, a | 2, a | 4) if a < b]

@@ -10,10 +10,10 @@ from collections.abc import Hashable
 from typing import Any, get_args
 
 import numpy as np
-from imgui_bundle import imgui
 
+from ....base.language import translated, translated_choice, translated_count
 from ....choices import LightShadow
-from ....model.environments.environment import BUILT_IN, named_environment
+from ....model.environments.environment import BUILT_IN, Environment, named_environment
 from ....model.geometry.mesh import Mesh
 from ....model.materials.colors import split_alpha
 from ....model.materials.display_colors import display_color
@@ -30,6 +30,7 @@ from ..value_commands import SetValues
 from .files import Files
 from .fog_fields import draw_fog
 from .panel_layout import begin_panel
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _COLLIDERS = {
@@ -98,7 +99,7 @@ class PropertiesPanel:
     ) -> None:
         value = getattr(thing, name)
         if value is None or not math.isfinite(value):
-            imgui.label_text(label, "none" if value is None else f"{value:g}")
+            imgui.label_text(label, translated("none") if value is None else f"{value:g}")
             return
         changed, new = imgui.drag_float(label, value * factor, speed, low, high, "%.4g")
         self._follow_drag()
@@ -129,8 +130,7 @@ class PropertiesPanel:
 
     def _draw_scene(self) -> None:
         scene = self._workspace.scene
-        count = len(scene.nodes)
-        imgui.text_disabled(f"{count:,} node{'' if count == 1 else 's'}")
+        imgui.text_disabled(translated_count("{count:,} node", "{count:,} nodes", len(scene.nodes)))
         if imgui.collapsing_header("Scene", imgui.TreeNodeFlags_.default_open):
             if isinstance(scene.background, tuple):
                 self._color(scene, "background", "Background")
@@ -143,7 +143,7 @@ class PropertiesPanel:
     def _draw_environment(self, scene: Scene) -> None:
         """Lay out the environment: a built-in one, or from a file."""
         now = scene.environment
-        name = "none" if now is None else now.built_in or now.name or "from a file"
+        name = _told(now)
         if imgui.begin_combo("Environment", name):
             for built_in in (None, *BUILT_IN):
                 is_now = (
@@ -151,7 +151,12 @@ class PropertiesPanel:
                     if built_in is None
                     else now is not None and now.built_in == built_in
                 )
-                if imgui.selectable(built_in or "none", is_now)[0] and not is_now:
+                if (
+                    imgui.selectable(translated_choice("environment", built_in or "none"), is_now)[
+                        0
+                    ]
+                    and not is_now
+                ):
                     chosen = None if built_in is None else named_environment(built_in)
                     self._workspace.do(SetValues([scene], {"environment": chosen}))
             imgui.end_combo()
@@ -164,9 +169,11 @@ class PropertiesPanel:
         flags = imgui.InputTextFlags_.enter_returns_true
         entered, name = imgui.input_text("Name", node.name, flags)
         if entered and name != node.name:
-            self._workspace.do(SetValues([node], {"name": name}, "Rename"))
+            self._workspace.do(SetValues([node], {"name": name}, translated("Rename")))
         if len(nodes) > 1:
-            imgui.text_disabled(f"the last of {len(nodes):,} selected nodes")
+            imgui.text_disabled(
+                translated("the last of {count:,} selected nodes", count=len(nodes))
+            )
         self._flag(nodes, "visible", "Visible")
         imgui.same_line()
         self._flag(nodes, "static", "Static")
@@ -198,7 +205,7 @@ class PropertiesPanel:
             self._set([node], {"scale": scaled})
         if imgui.button("Reset"):
             identity = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": 1.0}
-            self._workspace.do(SetValues([node], identity, "Reset the transform"))
+            self._workspace.do(SetValues([node], identity, translated("Reset the transform")))
 
     def _draw_mesh(self, node: Node, held: Mesh | InstancedMesh) -> None:
         mesh = held.mesh if isinstance(held, InstancedMesh) else held
@@ -210,7 +217,8 @@ class PropertiesPanel:
             imgui.label_text("Vertices", f"{len(mesh.positions):,}")
             imgui.label_text("Triangles", f"{len(mesh.faces):,}")
         for number, material in enumerate(mesh.materials):
-            title = f"Material {material.name or number}##{number}"
+            name = material.name or number
+            title = f"{translated('Material {name}', name=name)}###material {number}"
             if imgui.collapsing_header(title, imgui.TreeNodeFlags_.default_open):
                 imgui.push_id(number)
                 self._choose("Use", "material", material, _in_place(mesh, number), [mesh])
@@ -227,11 +235,11 @@ class PropertiesPanel:
             imgui.same_line()
             if imgui.button("Remove"):
                 values = {"collider": None, "object": None}
-                self._workspace.do(SetValues([node], values, "Remove the mesh"))
+                self._workspace.do(SetValues([node], values, translated("Remove the mesh")))
 
     def _choose(self, label: str, kind: str, now, values, things) -> None:
         """Lay out a choice of resources of a kind; then assign ``values(chosen)``."""
-        name = "none" if now is None else now.name or "unnamed"
+        name = translated("none") if now is None else now.name or translated("unnamed")
         if not imgui.begin_combo(label, name):
             return
         for number, entry in enumerate(self._workspace.resources.entries()):
@@ -279,9 +287,12 @@ class PropertiesPanel:
         if not imgui.collapsing_header("Collider"):
             return
         now = _KINDS.get(type(node.collider), "none")
-        if imgui.begin_combo("Kind", now):
+        if imgui.begin_combo("Kind", translated_choice("collider", now)):
             for name, make in _COLLIDERS.items():
-                if imgui.selectable(name, name == now)[0] and name != now:
+                if (
+                    imgui.selectable(translated_choice("collider", name), name == now)[0]
+                    and name != now
+                ):
                     self._workspace.do(SetValues([node], {"collider": make(mesh)}))
             imgui.end_combo()
         if isinstance(node.collider, SphereCollider):
@@ -315,10 +326,12 @@ class PropertiesPanel:
                 self._set([light], {"direction": direction})
 
     def _draw_shadow(self, light: Light) -> None:
-        if not imgui.begin_combo("Shadow", light.shadow):
+        if not imgui.begin_combo("Shadow", translated_choice("shadow", light.shadow)):
             return
         for shadow in get_args(LightShadow):
-            chosen = imgui.selectable(shadow, shadow == light.shadow)[0]
+            chosen = imgui.selectable(translated_choice("shadow", shadow), shadow == light.shadow)[
+                0
+            ]
             if chosen and shadow != light.shadow:
                 self._workspace.do(SetValues([light], {"shadow": shadow}))
         imgui.end_combo()
@@ -347,7 +360,15 @@ class PropertiesPanel:
             self._number(camera, "zfar", "Far", 1.0, 1e-3)
         if imgui.button("Place it where the view is"):
             pose = self._workspace.view.pose()
-            self._workspace.do(SetValues([node], {"pose": pose}, "Place the camera"))
+            self._workspace.do(SetValues([node], {"pose": pose}, translated("Place the camera")))
+
+
+def _told(environment: Environment | None) -> str:
+    """Return the name of an environment, as it is shown."""
+    if environment is None or environment.built_in:
+        built_in = "none" if environment is None else environment.built_in
+        return translated_choice("environment", built_in)
+    return environment.name or translated("from a file")
 
 
 def _ball(mesh: Mesh) -> tuple[float, np.ndarray]:

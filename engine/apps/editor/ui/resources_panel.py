@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import time
 
-from imgui_bundle import imgui
-
+from ....base.language import translated, translated_choice
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..resource_list import Entry
 from ..thumbnails import Thumbnails
 from .panel_layout import begin_panel
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 PICTURE = 48
@@ -82,8 +82,13 @@ class ResourcesPanel:
         if imgui.selectable(f"{entry.name}##{number}", False, flags, (0.0, PICTURE))[0]:
             users = self._workspace.resources.users(entry.thing)
             self._workspace.document.selection.set(users)
-        size = f"{entry.size:,} bytes" if entry.size else ""
-        for text in (entry.kind, size, entry.path or "", f"{entry.users:,}"):
+        size = translated("{size:,} bytes", size=entry.size) if entry.size else ""
+        for text in (
+            translated_choice("resource", entry.kind),
+            size,
+            entry.path or "",
+            f"{entry.users:,}",
+        ):
             imgui.table_next_column()
             imgui.text_unformatted(text)
 

@@ -11,6 +11,7 @@ import time
 import numpy as np
 from imgui_bundle import imgui
 
+from ....base.language import translated
 from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
 from ....stage.overlays.selection_outline import outline_pixels
@@ -133,10 +134,13 @@ class ScenePanel:
     def _draw_times(self, corner) -> None:
         """Show the times of the scene's last picture."""
         triangles = self._frame.stats["triangles"]
-        text = f"{1e3 * self._seconds:.1f} ms, {triangles:,} triangles"
+        text = translated(
+            "{ms:.1f} ms, {count:,} triangles", ms=1e3 * self._seconds, count=triangles
+        )
         if self._workspace.document.moves:
             animator = self._workspace.document.animator
-            text += f", {animator.time:.2f} s, frame {self._workspace.moments}"
+            moments = self._workspace.moments
+            text += translated(", {time:.2f} s, frame {count}", time=animator.time, count=moments)
         place = corner.x + 8.0, corner.y + self._frame.height - 1.5 * imgui.get_font_size()
         color = imgui.get_color_u32(imgui.Col_.text_disabled)
         imgui.get_window_draw_list().add_text(place, color, text)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ....base.language import translated
 from ....model import primitives
 from ....model.scene.ambient_lights import HemisphereLight
 from ....model.scene.cameras import PerspectiveCamera
@@ -45,7 +46,9 @@ def add(workspace: Workspace, what: str, parent: Node | None = None) -> None:
     def add_one(scene):
         scene.add(ADDED[what](), name=name, parent=parent, translation=place)
 
-    workspace.do(AddNodes(workspace.scene, add_one, f"Add {name}"))
+    workspace.do(
+        AddNodes(workspace.scene, add_one, translated("Add {name}", name=translated(what).lower()))
+    )
     if parent is not None:
         workspace.hierarchy.set_open(parent, True)
 
@@ -77,7 +80,9 @@ def put_on_ground(workspace: Workspace) -> None:
     nodes = workspace.document.selection.nodes
     if nodes:
         move = on_ground(workspace.scene, workspace.view.up)
-        workspace.do(MoveNodes(workspace.scene, nodes, move, counted("Put down", nodes)))
+        workspace.do(
+            MoveNodes(workspace.scene, nodes, move, counted(translated("Put down"), nodes))
+        )
 
 
 def toggle_visible(workspace: Workspace) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ....base import linalg
+from ....base.language import translated
 from ....choices import LookName, Mode
 from ....errors import Engine3DError
 from ....io.loaders import load_mesh, load_texture
@@ -238,7 +239,7 @@ class Workspace:
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
-        label = f"Load {os.path.basename(path)}"
+        label = translated("Load {name}", name=os.path.basename(path))
         return self.do(SetValues([material], {slot: texture}, label))
 
     def load_mesh(self, path: str, node: Node) -> bool:
@@ -249,7 +250,7 @@ class Workspace:
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
-        label = f"Load {os.path.basename(path)}"
+        label = translated("Load {name}", name=os.path.basename(path))
         return self.do(SetValues([node], {"object": mesh}, label))
 
     def save(self, path: str | None = None, *, overwrite: bool = False) -> bool:
@@ -311,7 +312,9 @@ class Workspace:
         self.plays = not self.plays
         if self.plays and not self.document.moves:
             self.plays = False
-            self.console.write("message", "nothing moves: animator.spin(node, period=4) lets it")
+            self.console.write(
+                "message", translated("nothing moves: animator.spin(node, period=4) lets it")
+            )
 
     def rewind(self) -> None:
         """Go to time 0."""

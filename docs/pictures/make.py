@@ -33,6 +33,8 @@ from engine3d.apps.agents.session import Session
 from engine3d.apps.golden.comparison import compare
 from engine3d.apps.golden.difference_picture import difference_picture
 from engine3d.apps.scenes import load_demo
+from engine3d.apps.viewer.help_panel import draw_help
+from engine3d.base.language import speaking
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
@@ -347,6 +349,17 @@ def viewer() -> np.ndarray:
         return view_renderer.draw(view_renderer.view()).color
 
 
+def french() -> np.ndarray:
+    """The help of the viewer in French, over a model."""
+    viewed = open_model(MODELS / "island.obj")
+    settings = Settings({}, look="studio")
+    with ViewRenderer(viewed, settings, (1280, 720), samples=SAMPLES) as view_renderer:
+        frame = view_renderer.draw(view_renderer.view())
+    with speaking("fr"):
+        draw_help(frame.canvas())
+    return frame.color
+
+
 def city() -> np.ndarray:
     """The city as one who walks sees it, and from above."""
     tiles = []
@@ -510,6 +523,7 @@ PICTURES = {
     "mirrors": mirrors,
     "lenses": lenses,
     "viewer": viewer,
+    "french": french,
     "city": city,
     "impostors": impostors,
     "golden": golden,

@@ -8,6 +8,7 @@ open, so that pictures of the library never depend on the locale.
 from __future__ import annotations
 
 import contextlib
+import functools
 import os
 import re
 import string
@@ -67,6 +68,7 @@ def speaking(language: str) -> Iterator[None]:
         _chosen = before
 
 
+@functools.cache
 def read_catalogue(language: str) -> Catalogue:
     """Return the catalogue of a language.
 
@@ -136,6 +138,12 @@ def translated_count(one: str, many: str, count: int, /, **values: Any) -> str:
     return _FILLER.vformat(template, (), values | {"count": count})
 
 
+def translated_number(number: float, spec: str = "", /) -> str:
+    """Return a number, written by a format such as ``",d"``, with the marks of the language."""
+    text = format(number, spec)
+    return text if _chosen is None else text.translate(_chosen.number_marks)
+
+
 def translated_keys(keys: str) -> str:
     """Return keys such as ``"Ctrl+Shift+Z"`` by the names on keyboards of the chosen language."""
     if _chosen is None:
@@ -150,10 +158,9 @@ class _Filler(string.Formatter):
     """Fills templates, and writes numbers with the marks of the chosen language."""
 
     def format_field(self, value: Any, format_spec: str) -> str:
-        text = format(value, format_spec)
-        if _chosen is None or not isinstance(value, Real):
-            return text
-        return text.translate(_chosen.number_marks)
+        if isinstance(value, Real):
+            return translated_number(value, format_spec)
+        return format(value, format_spec)
 
 
 _FILLER = _Filler()

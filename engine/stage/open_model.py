@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable
 from typing import Any, cast
 
-from ..base.language import translated
+from ..base.language import translated, translated_number
 from ..choices import ColorLike
 from ..errors import InvalidArgumentError, printable, warn
 from ..io.loaders import load_document, load_texture
@@ -218,5 +218,5 @@ def document_lines(document: Document) -> list[str]:
     for name, entries in document.counts.items():
         count = entries if isinstance(entries, int) else len(entries)
         if count:
-            lines.append(f"{translated(name):<12}{count:>11,d}")
+            lines.append(f"{translated(name):<12}{translated_number(count, '>11,d')}")
     return lines

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...base.language import translated
+from ...base.language import translated, translated_number
 from ...rendering.fonts.fitting import most_kept
 from ...rendering.fonts.font import Font
 from ...stage.overlays.lettering import text_font
@@ -186,7 +186,9 @@ class MaterialPanel(Panel):
 
 
 def _row(entry) -> Row:
-    return Row(f"{SHOWN if entry.shown else HIDDEN} {entry.name}", f"{entry.triangles:,}")
+    return Row(
+        f"{SHOWN if entry.shown else HIDDEN} {entry.name}", translated_number(entry.triangles, ",")
+    )
 
 
 def fitted(row: Row, width: int, font: Font) -> Row:

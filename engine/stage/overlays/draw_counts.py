@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...base.language import translated, translated_choice, translated_count
+from ...base.language import translated, translated_choice, translated_count, translated_number
 
 COUNTED = ("nodes", "clusters", "triangles")
 #: Titles of the columns, and suffixes of their counters.
@@ -37,7 +37,10 @@ def count_table(stats: dict[str, Any]) -> list[str]:
     rows = [f"{'':<9}" + "".join(f"{translated(stage):>12}" for stage in STAGES)]
     for what in COUNTED:
         numbers = (stats[what + ending] for ending in STAGES.values())
-        rows.append(f"{translated(what):<9}" + "".join(f"{number:>12,}" for number in numbers))
+        rows.append(
+            f"{translated(what):<9}"
+            + "".join(translated_number(number, ">12,") for number in numbers)
+        )
     return rows
 
 

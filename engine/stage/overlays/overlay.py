@@ -9,7 +9,7 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import Any
 
-from ...base.language import translated
+from ...base.language import translated, translated_number
 from ...rendering.canvas import Canvas
 from ...rendering.fonts.font import Font
 from ..views.camera_view import AnyView
@@ -160,7 +160,7 @@ def statistics_lines(
     for name, value in stats.items():
         if name in tabled or name == "plan":
             continue  # the plan's names are only for developers of the rasteriser
-        text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
+        text = translated_number(value, ".3f") if isinstance(value, float) else f"{value}"
         entries.append(f"{translated(name.replace('_', ' ')):<19}{text:>11}")
     return lines + _in_two_columns(entries)
 

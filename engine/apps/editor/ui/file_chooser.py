@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 
 from ....base.files.folder_listing import Item, Listing, list_folder
-from ....base.language import translated
+from ....base.language import translated, translated_number
 from ...desktop.recent_files import RecentFiles
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..file_pictures import FilePictures
@@ -194,7 +194,7 @@ class FileDialog:
         if imgui.is_item_hovered() and not item.is_folder:
             self._hovered = item.path
         imgui.table_next_column()
-        imgui.text_unformatted("" if item.is_folder else f"{item.size:,}")
+        imgui.text_unformatted("" if item.is_folder else translated_number(item.size, ","))
         imgui.table_next_column()
         imgui.text_unformatted(time.strftime("%Y-%m-%d %H:%M", time.localtime(item.modified)))
         if not clicked:

@@ -11,7 +11,12 @@ from typing import Any, get_args
 
 import numpy as np
 
-from ....base.language import translated, translated_choice, translated_count
+from ....base.language import (
+    translated,
+    translated_choice,
+    translated_count,
+    translated_number,
+)
 from ....choices import LightShadow
 from ....model.environments.environment import BUILT_IN, Environment, named_environment
 from ....model.geometry.mesh import Mesh
@@ -211,11 +216,11 @@ class PropertiesPanel:
         mesh = held.mesh if isinstance(held, InstancedMesh) else held
         if imgui.collapsing_header("Mesh", imgui.TreeNodeFlags_.default_open):
             if isinstance(held, InstancedMesh):
-                imgui.label_text("Instances", f"{len(held.poses):,}")
+                imgui.label_text("Instances", translated_number(len(held.poses), ","))
             else:
                 self._draw_shape(node, mesh)
-            imgui.label_text("Vertices", f"{len(mesh.positions):,}")
-            imgui.label_text("Triangles", f"{len(mesh.faces):,}")
+            imgui.label_text("Vertices", translated_number(len(mesh.positions), ","))
+            imgui.label_text("Triangles", translated_number(len(mesh.faces), ","))
         for number, material in enumerate(mesh.materials):
             name = material.name or number
             title = f"{translated('Material {name}', name=name)}###material {number}"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 
-from ....base.language import translated, translated_choice
+from ....base.language import translated, translated_choice, translated_number
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..resource_list import Entry
 from ..thumbnails import Thumbnails
@@ -87,7 +87,7 @@ class ResourcesPanel:
             translated_choice("resource", entry.kind),
             size,
             entry.path or "",
-            f"{entry.users:,}",
+            translated_number(entry.users, ","),
         ):
             imgui.table_next_column()
             imgui.text_unformatted(text)

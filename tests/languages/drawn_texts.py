@@ -1,0 +1,174 @@
+"""The texts that windows can draw, found in the source: what a catalogue has to have.
+
+In: the modules of programs and of what they draw over pictures. Out: pairs of a context and a text
+in English, with the place of each. Literal arguments of the calls that draw are read from the
+source; lists of titles, helps and choices are read where they are defined.
+"""
+
+import ast
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import engine3d
+
+ENGINE = Path(engine3d.__file__).parent
+UI = ENGINE / "apps" / "editor" / "ui"
+#: What draws texts, and what it asks for them.
+FOLDERS = ("apps", "stage", "base/files")
+#: Functions of `engine3d.base.language`, and how many of their first arguments are texts.
+TRANSLATING = {"translated": 1, "translated_count": 2}
+#: Methods that show messages in a viewer's window, by their folders.
+SAYING = {"apps/viewer": "say", "apps/cli/commands": "say"}
+#: Functions of Dear ImGui whose first argument is drawn as it is.
+DRAWN_AS_GIVEN = ("text", "text_unformatted", "text_wrapped", "selectable")
+#: Modules of the editor's window without labels.
+UNLABELLED = ("imgui_input.py", "translated_imgui.py")
+#: Keys whose names are the same everywhere.
+SAME_KEY = re.compile(r"F\d+|Ctrl|Tab|Alt")
+#: Names of keys that code compares with, which are no labels.
+KEY_NAMES = ("Alt", "Ctrl", "Escape", "Shift", "Space")
+
+
+class Text(NamedTuple):
+    """A text, and where it was found."""
+
+    context: str
+    text: str
+    place: str
+
+
+def texts_in_source():
+    """Yield the texts of calls that draw, and the labels of the editor."""
+    for folder in FOLDERS:
+        for path in sorted((ENGINE / folder).rglob("*.py")):
+            yield from _texts_of(path)
+
+
+def untranslatable():
+    """Yield the places where words are put together before they are drawn."""
+    for folder in FOLDERS:
+        for path in sorted((ENGINE / folder).rglob("*.py")):
+            for call in _calls(_tree(path)):
+                for argument in _drawn(path, call):
+                    for part in _parts(argument):
+                        if isinstance(part, ast.JoinedStr) and _has_words(part):
+                            yield f"{_name(path)}:{part.lineno}: {ast.unparse(part)}"
+                if _function(call) in DRAWN_AS_GIVEN and _is_of_imgui(call) and call.args:
+                    for part in _parts(call.args[0]):
+                        if _has_words(part):
+                            yield f"{_name(path)}:{part.lineno}: {ast.unparse(part)}"
+
+
+def _texts_of(path):
+    for call in _calls(_tree(path)):
+        for argument in _drawn(path, call):
+            for part in _parts(argument):
+                if isinstance(part, ast.Constant) and isinstance(part.value, str):
+                    yield Text("", part.value, f"{_name(path)}:{part.lineno}")
+        if _function(call) == "translated_choice" and isinstance(call.args[0], ast.Constant):
+            for part in _parts(call.args[1]):
+                if isinstance(part, ast.Constant):
+                    place = f"{_name(path)}:{part.lineno}"
+                    yield Text(call.args[0].value, part.value, place)
+    if path.is_relative_to(UI) and path.name not in UNLABELLED:
+        yield from _labels_of(path)
+
+
+def _calls(tree):
+    return (node for node in ast.walk(tree) if isinstance(node, ast.Call))
+
+
+def _tree(path):
+    return ast.parse(path.read_text("utf-8"))
+
+
+def _drawn(path, call):
+    """Return the arguments of a call that are drawn in the chosen language."""
+    name = _function(call)
+    if name in TRANSLATING:
+        return call.args[: TRANSLATING[name]]
+    folder = path.parent.relative_to(ENGINE).as_posix()
+    if isinstance(call.func, ast.Attribute) and SAYING.get(folder) == name:
+        return call.args[:1]
+    if _is_of_imgui(call) and name in ("set_item_tooltip", "text_disabled"):
+        return call.args[:1]
+    if _is_of_imgui(call) and name == "input_text_with_hint":
+        return call.args[1:2]
+    return []
+
+
+def _parts(argument):
+    """Return an argument, or what it chooses between."""
+    if isinstance(argument, ast.IfExp):
+        return [*_parts(argument.body), *_parts(argument.orelse)]
+    if isinstance(argument, ast.BoolOp):
+        return [part for value in argument.values for part in _parts(value)]
+    return [argument]
+
+
+def _function(call):
+    return getattr(call.func, "id", None) or getattr(call.func, "attr", "")
+
+
+def _is_of_imgui(call):
+    return isinstance(call.func, ast.Attribute) and getattr(call.func.value, "id", "") == "imgui"
+
+
+def _has_words(part):
+    constants = [part] if isinstance(part, ast.Constant) else getattr(part, "values", [])
+    texts = (one.value for one in constants if isinstance(one, ast.Constant))
+    shown = "".join(text for text in texts if isinstance(text, str)).partition("##")[0]
+    return any(len(word) > 1 and word.isalpha() for word in shown.split())
+
+
+def _labels_of(path):
+    """Yield what begins with a capital letter and is no documentation: labels."""
+    tree = _tree(path)
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    spared = {
+        id(node.body[0].value)
+        for node in ast.walk(tree)
+        if isinstance(node, documented) and isinstance(node.body[0], ast.Expr)
+    }
+    spared |= {
+        id(part)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.JoinedStr)
+        for part in node.values
+    }
+    keys = [key for call in _calls(tree) for key in _keys(call)]
+    spared |= set(map(id, keys))
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+            continue
+        shown = node.value.partition("##")[0]
+        if id(node) in spared or shown in KEY_NAMES:
+            continue
+        if shown[:1].isupper() and shown[1:2].islower():
+            yield Text("", shown, f"{_name(path)}:{node.lineno}")
+    for call in _calls(tree):
+        if _function(call) == "ask" and isinstance(call.args[0], ast.Constant):
+            first = call.args[0].value.split()[0]  # what the button of a dialog says
+            yield Text("", first, f"{_name(path)}:{call.lineno}")
+    for node in keys:
+        for name in names_of_keys(node.value):
+            yield Text("key", name, f"{_name(path)}:{node.lineno}")
+
+
+def _keys(call):
+    """Return the arguments of a call that name keys of a shortcut."""
+    places = {"Entry": 2, "menu_item": 1, "menu_item_simple": 1}
+    place = places.get(_function(call))
+    found = call.args[place : place + 1] if place else []
+    return [one for one in found if isinstance(one, ast.Constant)]
+
+
+def names_of_keys(keys):
+    """Return the words of a shortcut that are not the same on all keyboards."""
+    words = keys.replace("+", " ").split()
+    return [word for word in words if len(word) > 1 and not SAME_KEY.fullmatch(word)]
+
+
+def _name(path):
+    return path.relative_to(ENGINE).as_posix()

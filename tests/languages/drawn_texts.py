@@ -20,8 +20,8 @@ FOLDERS = ("apps", "stage", "base/files")
 TRANSLATING = {"translated": 1, "translated_count": 2}
 #: Methods that show messages in a viewer's window, by their folders.
 SAYING = {"apps/viewer": "say", "apps/cli/commands": "say"}
-#: Functions of Dear ImGui whose first argument is drawn as it is.
-DRAWN_AS_GIVEN = ("text", "text_unformatted", "text_wrapped", "selectable")
+#: Functions of Dear ImGui that draw their first argument as it is.
+DRAWN_AS_GIVEN = ("text", "text_unformatted", "selectable")
 #: Modules of the editor's window without labels.
 UNLABELLED = ("imgui_input.py", "translated_imgui.py")
 #: Keys whose names are the same everywhere.
@@ -60,6 +60,29 @@ def untranslatable():
                             yield f"{_name(path)}:{part.lineno}: {ast.unparse(part)}"
 
 
+def _list_of(name):
+    """Return a list of the module that translates, which cannot be imported without imgui_bundle."""
+    for node in _tree(UI / "translated_imgui.py").body:
+        if isinstance(node, ast.Assign) and node.targets[0].id == name:
+            return ast.literal_eval(node.value)
+    raise AssertionError(name)
+
+
+def untranslated_labels():
+    """Yield the modules that lay out labels with Dear ImGui itself."""
+    labelled = {*_list_of("LABELLED"), *_list_of("REMARKING"), "menu_item", "menu_item_simple"}
+    for path in sorted(UI.rglob("*.py")):
+        tree = _tree(path)
+        modules = (node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom))
+        itself = any(
+            node.module == "imgui_bundle" and "imgui" in [one.name for one in node.names]
+            for node in modules
+        )
+        draws = any(_is_of_imgui(call) and _function(call) in labelled for call in _calls(tree))
+        if itself and draws and path.name not in UNLABELLED:
+            yield _name(path)
+
+
 def _texts_of(path):
     for call in _calls(_tree(path)):
         for argument in _drawn(path, call):
@@ -91,7 +114,7 @@ def _drawn(path, call):
     folder = path.parent.relative_to(ENGINE).as_posix()
     if isinstance(call.func, ast.Attribute) and SAYING.get(folder) == name:
         return call.args[:1]
-    if _is_of_imgui(call) and name in ("set_item_tooltip", "text_disabled"):
+    if _is_of_imgui(call) and name in _list_of("REMARKING"):
         return call.args[:1]
     if _is_of_imgui(call) and name == "input_text_with_hint":
         return call.args[1:2]

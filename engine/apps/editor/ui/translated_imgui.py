@@ -45,7 +45,7 @@ LABELLED = (
     "tree_node",
 )
 #: Functions whose first argument is a remark of the editor.
-REMARKING = ("set_item_tooltip", "text_disabled")
+REMARKING = ("separator_text", "set_item_tooltip", "text_disabled", "text_wrapped")
 
 
 def label(text: str) -> str:

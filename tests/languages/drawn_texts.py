@@ -6,6 +6,7 @@ source; lists of titles, helps and choices are read where they are defined.
 """
 
 import ast
+import functools
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -60,8 +61,9 @@ def untranslatable():
                             yield f"{_name(path)}:{part.lineno}: {ast.unparse(part)}"
 
 
+@functools.cache
 def _list_of(name):
-    """Return a list of the module that translates, which cannot be imported without imgui_bundle."""
+    """Return a list of the module that translates, which needs imgui_bundle to be imported."""
     for node in _tree(UI / "translated_imgui.py").body:
         if isinstance(node, ast.Assign) and node.targets[0].id == name:
             return ast.literal_eval(node.value)

@@ -164,11 +164,12 @@ def _labels_of(path):
     }
     keys = [key for call in _calls(tree) for key in _keys(call)]
     spared |= set(map(id, keys))
+    spared |= {id(call.args[0]) for call in _calls(tree) if _function(call) == "TypeVar"}
     for node in ast.walk(tree):
         if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
             continue
         shown = node.value.partition("##")[0]
-        if id(node) in spared or shown in KEY_NAMES:
+        if id(node) in spared or shown in KEY_NAMES or shown.startswith(("Ctrl+", "Shift+")):
             continue
         if shown[:1].isupper() and shown[1:2].islower():
             yield Text("", shown, f"{_name(path)}:{node.lineno}")
@@ -176,6 +177,11 @@ def _labels_of(path):
         if _function(call) == "ask" and isinstance(call.args[0], ast.Constant):
             first = call.args[0].value.split()[0]  # what the button of a dialog says
             yield Text("", first, f"{_name(path)}:{call.lineno}")
+    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.For)):
+        for node in ast.walk(loop.iter):  # rows of labels and tooltips
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                if " " in node.value and _has_words(node):
+                    yield Text("", node.value, f"{_name(path)}:{node.lineno}")
     for node in keys:
         for name in names_of_keys(node.value):
             yield Text("key", name, f"{_name(path)}:{node.lineno}")
@@ -183,10 +189,10 @@ def _labels_of(path):
 
 def _keys(call):
     """Return the arguments of a call that name keys of a shortcut."""
-    places = {"Entry": 2, "menu_item": 1, "menu_item_simple": 1}
+    places = {"Entry": 2, "menu_item": 1, "menu_item_simple": 1, "of_selection": 1, "key": 1}
     place = places.get(_function(call))
     found = call.args[place : place + 1] if place else []
-    return [one for one in found if isinstance(one, ast.Constant)]
+    return [one for one in found if isinstance(one, ast.Constant) and one.value]
 
 
 def names_of_keys(keys):

@@ -38,7 +38,7 @@ def make_editor(monkeypatch, tmp_path):
     ("text", "shown", "identity"),
     [
         ("Save", "Enregistrer", "###Save"),
-        ("Name##2", "Nom", "###Name##2"),
+        ("Name##2", "Name", "##2"),
         ("Name###of node", "Nom", "###of node"),
         ("##search", "", "##search"),
     ],

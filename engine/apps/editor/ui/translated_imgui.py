@@ -54,12 +54,13 @@ def label(text: str) -> str:
     Parameters
     ----------
     text : str
-        In English; ``##`` begins what is not shown of it, ``###`` its ID.
+        In English; ``###`` begins its ID, which is not shown. With ``##``, which tells equal names
+        of the user's apart, it is such a name and stays.
     """
-    shown, mark, rest = text.partition("##")
-    if not shown:
+    shown, mark, identity = text.partition("###")
+    if not mark and "##" in text:
         return text
-    return translated(shown) + (f"##{rest}" if rest.startswith("#") else f"###{text}")
+    return f"{translated(shown)}###{identity if mark else text}"
 
 
 def _labelled(function):

@@ -142,7 +142,9 @@ def test_ways_of_culling_give_one_picture_and_their_own_counts():
         culling = view_renderer.appearance.culling
         counts[culling] = view_renderer.stats["nodes_drawn"]
         tested[culling] = view_renderer.stats["boxes_tested"]
-        told[culling] = next(line for line in viewer.statistics_lines() if line.startswith("culling"))
+        told[culling] = next(
+            line for line in viewer.statistics_lines() if line.startswith("culling")
+        )
     assert all((picture == pictures[0]).all() for picture in pictures)
     assert set(counts) == {"all", "tree", "frustum", "none", "always"}
     assert counts["none"] == 40 > counts["frustum"] == counts["tree"] >= counts["all"]

@@ -5,10 +5,9 @@ In: the selection, the clipboard's text. Out: commands; text for this and other 
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
-
 from ....errors import Engine3DError
 from ..node_commands import DeleteNodes, counted
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 

@@ -9,8 +9,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 
-from imgui_bundle import imgui
-
+from ....base.language import translated
 from ....errors import printable
 from ....io.loaders import formats
 from ....model.materials.material import Material
@@ -21,6 +20,7 @@ from ..document import SCENE_EXTENSION
 from ..gltf_export import GLTF_EXTENSIONS
 from ..recovery import Recovery
 from .file_chooser import FileDialog
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _SCENES = (SCENE_EXTENSION,)
@@ -146,7 +146,11 @@ class Files:
     # Questions
 
     def _offer(self, copy: Recovery) -> None:
-        name = "a scene without a name" if copy.document is None else printable(copy.document)
+        name = (
+            translated("a scene without a name")
+            if copy.document is None
+            else printable(copy.document)
+        )
         made = time.strftime("%Y-%m-%d %H:%M", time.localtime(copy.time))
 
         def recover():
@@ -154,7 +158,9 @@ class Files:
             forget(copy)
 
         self._ask(
-            f"An editor ended without saving {name}, as it was on {made}.",
+            translated(
+                "An editor ended without saving {name}, as it was on {time}.", name=name, time=made
+            ),
             {"Recover": recover, "Discard": lambda: forget(copy), "Later": lambda: None},
         )
 
@@ -164,7 +170,7 @@ class Files:
             act()
             return
         self._ask(
-            f"{document.title.rstrip('*')} is not saved.",
+            translated("{name} is not saved.", name=document.title.rstrip("*")),
             {"Save": lambda: self.save(act), "Discard": act, "Cancel": lambda: None},
         )
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from imgui_bundle import imgui
-
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 if TYPE_CHECKING:

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from imgui_bundle import imgui
-
 from ....model.geometry.mesh import Mesh
 from ....model.materials.material import Material
 from ....model.scene.cameras import Camera
@@ -27,6 +25,7 @@ from .properties.material_fields import MaterialFields
 from .properties.scene_fields import draw_scene
 from .properties.shape_fields import ShapeFields
 from .properties.transform_fields import draw_transform
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _KINDS = {Mesh: "mesh", InstancedMesh: "mesh", type(None): "empty"}

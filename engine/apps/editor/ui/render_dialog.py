@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 import numpy as np
-from imgui_bundle import imgui
 
 from ....base import linalg
 from ....choices import LookName, Samples
@@ -20,6 +19,7 @@ from ....model.scene.cameras import Camera
 from ....model.scene.nodes import Node
 from ..render_job import RenderJob, Shot
 from .files import Files
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _WHAT = {"picture": "Picture", "turn": "Turn", "motion": "Motion"}

@@ -9,7 +9,6 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from imgui_bundle import imgui
 
 from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
@@ -25,6 +24,7 @@ from .scene_figures import SceneFigures
 from .scene_pictures import ScenePictures
 from .scene_tools import draw_tools
 from .style import scaled
+from .translated_imgui import imgui
 from .view.camera_preview import CameraPreview
 from .view.clickable_axes import ClickableAxes
 from .workspace import Workspace

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import os
 
-from imgui_bundle import imgui
-
 from ....errors import printable
 from ..new_things.starts import STARTS
 from .files import Files
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _TITLE = "Start"

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ....base import linalg
+from ....base.language import translated
 from ....choices import LookName, Mode
 from ....errors import Engine3DError
 from ....io.loaders import load_mesh, load_texture
@@ -264,7 +265,7 @@ class Workspace:
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
-        label = f"Load {os.path.basename(path)}"
+        label = translated("Load {name}", name=os.path.basename(path))
         return self.do(SetValues(materials, {slot: texture}, label))
 
     def load_mesh(self, path: str, node: Node) -> bool:
@@ -275,7 +276,7 @@ class Workspace:
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
-        label = f"Load {os.path.basename(path)}"
+        label = translated("Load {name}", name=os.path.basename(path))
         return self.do(SetValues([node], {"object": mesh}, label))
 
     def save(self, path: str | None = None, *, overwrite: bool = False) -> bool:
@@ -339,7 +340,8 @@ class Workspace:
             self.document.settle()
         elif not self.document.moves:
             self.plays = False
-            self.console.write("message", "nothing moves: the menu Motion lets the selected node")
+            said = translated("nothing moves: the menu Motion lets the selected node")
+            self.console.write("message", said)
 
     def rewind(self) -> None:
         """Go to time 0."""

@@ -22,10 +22,10 @@ from ....stage.overlays.overlay import MARGIN, PADDING
 from ....stage.overlays.theme import Theme
 from ....stage.overlays.ui_scale import scale_for, scaled
 from ... import events
-from .animation_bar import TimeState, draw_time_line, time_line
 from ..help_panel import CommandPanel
 from ..kept_drawing import KeptDrawing
 from ..mouse import CLICK_REACH
+from .animation_bar import TimeState, draw_time_line, time_line
 from .menu_bar import Button, bar_buttons, bar_height, button_at, draw_menu_bar, lit_buttons
 from .window_layout import Rectangle, WindowLayout, has_room, lay_out
 

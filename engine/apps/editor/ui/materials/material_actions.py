@@ -5,8 +5,6 @@ In: the workspace. Out: commands.
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
-
 from .....errors import InvalidArgumentError
 from .....model.materials.material import Material
 from .....model.scene.nodes import Node
@@ -14,6 +12,7 @@ from ...history import Command
 from ...material_commands import DiscardMaterial, Dress, KeepMaterial, mesh_of, new_material
 from ...picking import Pick
 from ...value_commands import SetValues
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 
 #: What a dragged material is called.

@@ -9,13 +9,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from imgui_bundle import imgui
-
 from .....model.materials.material import Material
 from ....imgui_painter.imgui_painter import ImguiPainter
 from ...resource_list import Entry
 from ..panel_layout import begin_panel
 from ..shown_thumbnails import ShownThumbnails
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import material_actions as actions
 

@@ -9,7 +9,6 @@ from collections.abc import Hashable, Sequence
 from typing import Any
 
 import numpy as np
-from imgui_bundle import imgui
 
 from .....choices import PathEnd
 from .....errors import InvalidArgumentError
@@ -20,6 +19,7 @@ from .....model.scene.animation import Spin, Track
 from .....model.scene.nodes import Node
 from ...motion_commands import with_repeat
 from ...motion_copies import motions_in
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import motion_actions as actions
 

@@ -10,14 +10,13 @@ import math
 from collections.abc import Hashable
 from typing import NamedTuple
 
-from imgui_bundle import imgui
-
 from .....model.motion.node_motion import NodeMotion
 from .....model.scene.animation import Motions, Track
 from .....model.scene.nodes import Node
 from ...motion_commands import with_key_at
 from ...motion_copies import motions_in
 from ..panel_layout import begin_panel
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import motion_actions as actions
 

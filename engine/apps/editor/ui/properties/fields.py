@@ -11,12 +11,11 @@ import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
-from imgui_bundle import imgui
-
 from .....base.held_values import same
 from .....model.materials.colors import split_alpha
 from .....model.materials.display_colors import display_color
 from ...value_commands import SetEach, SetValues
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 
 Option = TypeVar("Option")

@@ -14,6 +14,7 @@ from .fields import Fields
 
 _KINDS = {type(None): "none", Fog: "linear", ExponentialFog: "exponential"}
 _LEAST = 1e-4  # between near and far
+_LABELS = {"near": "Fog near", "far": "Fog far", "density": "Fog density"}
 
 
 def draw_fog(fields: Fields, scene: Scene, radius: float) -> None:

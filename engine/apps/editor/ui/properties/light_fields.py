@@ -6,11 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import get_args
 
-from imgui_bundle import imgui
-
 from .....choices import Falloff, LightShadow
 from .....model.scene.lights import DirectionalLight, Light
 from ...new_things.adding import AREA_SIZES
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from .fields import Fields, name_of
 

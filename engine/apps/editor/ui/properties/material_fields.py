@@ -6,8 +6,6 @@ import functools
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from imgui_bundle import imgui
-
 from .....model.geometry.mesh import Mesh
 from .....model.geometry.twins import twin_of
 from .....model.materials.material import PARAMETERS, Material, copy_of, textures_of
@@ -15,6 +13,7 @@ from .....model.materials.parameters import FLAG, Parameter, TextureSlot
 from .....model.scene.instances import InstancedMesh
 from .....model.scene.nodes import Node
 from ..files import Files
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from .fields import DIFFERS, Fields, name_of
 from .shape_fields import mesh_of

@@ -20,7 +20,7 @@ FOLDERS = ("apps", "stage", "base/files")
 #: Functions of `engine3d.base.language`, and how many of their first arguments are texts.
 TRANSLATING = {"translated": 1, "translated_count": 2}
 #: Methods that show messages in a viewer's window, by their folders.
-SAYING = {"apps/viewer": "say", "apps/cli/commands": "say"}
+SAYING = dict.fromkeys(("apps/viewer", "apps/viewer/tools", "apps/cli/commands"), "say")
 #: Functions of Dear ImGui that draw their first argument as it is.
 DRAWN_AS_GIVEN = ("text", "text_unformatted", "selectable")
 #: Modules of the editor's window without labels.

@@ -10,14 +10,13 @@ from typing import get_args
 import pytest
 from languages.drawn_texts import ENGINE, names_of_keys
 
-import engine3d as e3d
-from engine3d import choices
 from engine3d.stage.appearance import CHOICES
 
 
 def of_viewer():
     """What the viewer draws of its keys, options, lists and statistics."""
-    from engine3d.apps.viewer import actions, file_dialog, keymap, list_panels
+    from engine3d.apps.viewer import actions, file_dialog, help_panel, keymap, list_panels, viewer
+    from engine3d.apps.viewer.tools import explosion_panel, measuring_panel, section_panel
     from engine3d.stage.lighting import NO_LIGHTS, OWN_LIGHTS, SETUPS
     from engine3d.stage.overlays.debug_lines import DEBUG_DRAWINGS
     from engine3d.stage.overlays.theme import THEMES
@@ -32,11 +31,17 @@ def of_viewer():
     yield from _plain(file_dialog.SIZES)
     panels = list_panels.ObjectPanel, list_panels.MaterialPanel
     panels += file_dialog.FolderPanel, file_dialog.RecentPanel
+    panels += explosion_panel.ExplosionPanel, section_panel.SectionPanel
+    panels += help_panel.CommandPanel, measuring_panel.MeasuringPanel
     yield from _plain(text for panel in panels for text in (panel.title, panel.hint))
+    yield from _plain([help_panel._SHORT_HINT, measuring_panel._CLEAR, viewer.HINT])
+    yield from _plain(measuring_panel._WORDS.values())
+    yield from _plain(["corner", "edge", "face"])  # what a click snaps to
+    yield from _plain(binding.button for binding in keymap.BINDINGS)
     for option in ("wireframe", "mode", "cull", "hidden_surfaces", "tone_mapping"):
         yield "", option.replace("_", " ")
         yield from ((option, value or "off") for value in CHOICES[option])
-    yield from (("normals", value) for value in ("flat", "facet", "smooth"))
+    yield from (("normals", value) for value in CHOICES["normals"])
     yield from (("culling", value) for value in CHOICES["culling"])
     yield from (("lights", name) for name in (*SETUPS, OWN_LIGHTS, NO_LIGHTS))
     yield from (("drawing", name or "nothing") for name in DEBUG_DRAWINGS)
@@ -46,25 +51,11 @@ def of_viewer():
 def of_pictures():
     """What is drawn over pictures: statistics, why nothing shows, what files hold."""
     from engine3d.stage import blank
-    from engine3d.stage.overlays.draw_counts import (
-        COUNTED,
-        EVERY_TEST,
-        STAGES,
-        TESTS,
-        count_names,
-    )
+    from engine3d.stage.overlays.draw_counts import COLUMNS, EVERY_TEST, ROWS, TESTS
+    from engine3d.stage.overlays.frame_statistics import _LISTED, _STAGES
 
-    frame = e3d.render(e3d.box(), size=(16, 16))
-    named = frame.stats.keys() - count_names() - {"plan"}
-    yield from _plain(
-        [
-            *COUNTED,
-            *STAGES,
-            *TESTS.values(),
-            EVERY_TEST,
-            *(name.replace("_", " ") for name in named),
-        ]
-    )
+    named = (name.replace("_", " ") for name in _LISTED)
+    yield from _plain([*COLUMNS, *ROWS, *TESTS.values(), EVERY_TEST, *_STAGES, *named])
     source = ast.parse(inspect.getsource(blank))
     made = (node for node in ast.walk(source) if isinstance(node, ast.Call))
     yield from _plain(
@@ -96,25 +87,60 @@ def of_editor():
     """What the editor draws of its lists."""
     pytest.importorskip("imgui_bundle", reason="it is an extra", exc_type=ImportError)
     from engine3d.apps.editor.console import LEVELS
-    from engine3d.apps.editor.ui import fog_fields, properties_panel, scene_tools
-    from engine3d.apps.editor.ui.overlays import Overlays
-    from engine3d.apps.editor.ui.selection_actions import ADDED
+    from engine3d.apps.editor.motion_commands import NAMES
+    from engine3d.apps.editor.new_things.adding import AREA_SIZES, GROUPS
+    from engine3d.apps.editor.new_things.starts import STARTS
+    from engine3d.apps.editor.ui import properties_panel, render_dialog, scene_tools
+    from engine3d.apps.editor.ui.keys_window import MOUSE
+    from engine3d.apps.editor.ui.materials import materials_panel
+    from engine3d.apps.editor.ui.motion.motion_fields import _ENDS
+    from engine3d.apps.editor.ui.overlays import SHOWN
+    from engine3d.apps.editor.ui.properties import collider_fields, fog_fields, material_fields
+    from engine3d.apps.editor.ui.properties.light_fields import _CHOICES
     from engine3d.model.environments.environment import BUILT_IN
     from engine3d.model.materials.material import PARAMETERS
 
     yield from _plain(level.capitalize() for level in LEVELS)
-    yield from _plain(ADDED)
+    yield from _plain(title for titles in GROUPS for title in titles)
     yield from _plain(row.title for row in PARAMETERS.values())
     yield from _plain(tool.capitalize() for tool in scene_tools.TOOLS)
-    yield from _plain(name.capitalize() for name in Overlays(None).shown)
+    yield from _plain(title for title, _ in SHOWN.values())
+    yield from _plain(text for row in MOUSE for text in row)
+    yield from _plain(text for start in STARTS for text in (start.title, start.hint))
+    yield from _plain(_ENDS.values())
+    yield from _plain(render_dialog._WHAT.values())
+    yield from _plain(kind.capitalize() for kind in materials_panel._KINDS)
+    yield from _plain(material_fields._part(row) for row in PARAMETERS.values())
+    yield from _plain(_arguments_of_primitives())
+    yield from _plain(name.capitalize() for name in AREA_SIZES)
     yield from (("act", tool) for tool in scene_tools.TOOLS if tool != "select")
     yield from (("look", look or "auto") for look in scene_tools.LOOKS)
     yield from (("mode", mode) for mode in scene_tools.MODES)
-    yield from (("collider", kind) for kind in properties_panel._COLLIDERS)
-    yield from (("fog", kind) for kind in fog_fields._KINDS.values())
-    yield from (("shadow", shadow) for shadow in get_args(choices.LightShadow))
+    yield from (("collider", kind) for kind in collider_fields.COLLIDERS)
+    yield from (("fog", kind) for kind in fog_fields.KINDS.values())
+    yield from ((name, each) for name, (_, kind) in _CHOICES.items() for each in get_args(kind))
+    yield from (("surface", kind) for kind in materials_panel._KINDS)
+    yield from (("motion", name) for name in NAMES.values())
+    yield from (("holds", kind) for kind in ("light", "camera", *properties_panel._KINDS.values()))
     yield from (("environment", name) for name in ("none", *BUILT_IN))
     yield from (("resource", kind) for kind in ("mesh", "material", "texture"))
+
+
+def of_lessons():
+    """What the window of the lessons says besides them."""
+    from engine3d.apps.learn.words import KEYS, WORDS
+
+    yield from _plain(WORDS.values())
+    yield from _plain(meaning for _, meaning in KEYS)
+    yield from _plain(keys for keys, _ in KEYS if any(names_of_keys(keys)))
+
+
+def _arguments_of_primitives():
+    from engine3d.apps.editor.new_things.primitive_shapes import PRIMITIVES
+    from engine3d.apps.editor.ui.properties.shape_fields import _title
+
+    for make in PRIMITIVES.values():
+        yield from (_title(name) for name in inspect.signature(make).parameters)
 
 
 def of_keys(keys):

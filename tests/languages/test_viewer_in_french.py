@@ -8,12 +8,16 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.apps.viewer import actions
-from engine3d.apps.viewer.help_panel import draw_help, help_lines
+from engine3d.apps.viewer import actions, command_values
+from engine3d.apps.viewer.controls.menu_bar import bar_buttons
+from engine3d.apps.viewer.help_panel import CommandPanel
 from engine3d.apps.viewer.keymap import BINDINGS
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.base import language
 from engine3d.base.language import speaking
+from engine3d.rendering.fonts.font import Font
+from engine3d.stage.overlays.lettering import text_font
+from engine3d.stage.overlays.theme import DARK
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
@@ -73,13 +77,38 @@ def test_messages_are_french_only_in_a_french_window(viewer):
     assert viewer.messages.said == "mode: lit"
 
 
-def test_the_help_has_room_in_the_usual_window():
+def test_the_list_of_commands_cuts_no_french(viewer, monkeypatch):
+    cut, fitted = [], Font.fitted
+
+    def fitted_or_noted(font, text, width):
+        shown = fitted(font, text, width)
+        if shown != text:
+            cut.append(text)
+        return shown
+
+    monkeypatch.setattr(Font, "fitted", fitted_or_noted)
     with speaking("fr"):
-        assert draw_help(e3d.Canvas((1280, 720))) == 1
+        CommandPanel(viewer).draw(e3d.Canvas((1280, 2400)), 1.0, DARK)
+    assert not cut
 
 
-def test_the_help_of_a_terminal_is_french():
+def test_the_bar_has_its_buttons_in_french():
+    font = text_font(1.0)
+    count = len(bar_buttons(1280, font))
     with speaking("fr"):
-        lines, _ = help_lines(80, 60)
-    assert any("cette aide" in line for line in lines)
-    assert any(line.startswith("Maj+Haut") for line in lines)
+        buttons = bar_buttons(1280, font)
+    assert len(buttons) == count
+
+
+def test_the_list_of_commands_of_a_terminal_is_french(viewer):
+    viewer.window.text_room = (80, 400)
+    with speaking("fr"):
+        lines = CommandPanel(viewer).lines()
+    assert any("toutes les commandes" in line for line in lines)
+    assert any("Maj+Haut" in line for line in lines)
+
+
+def test_values_of_commands_are_french(viewer):
+    with speaking("fr"):
+        assert command_values.switch(True).text == "oui"
+        assert command_values.theme(viewer).text == "sombre"

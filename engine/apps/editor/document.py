@@ -234,12 +234,18 @@ class SceneDocument:
     @property
     def undo_label(self) -> str:
         """What undoing does, such as "Undo move 'box'"; "Undo" if there is nothing."""
-        return _labelled("Undo", self.history.last)
+        last = self.history.last
+        if last is None:
+            return translated("Undo")
+        return translated("Undo {label}", label=_short(last))
 
     @property
     def redo_label(self) -> str:
         """What redoing does, as `undo_label`."""
-        return _labelled("Redo", self.history.next)
+        then = self.history.next
+        if then is None:
+            return translated("Redo")
+        return translated("Redo {label}", label=_short(then))
 
     def save_would_overwrite(self, path: str | os.PathLike[str] | None = None) -> str | None:
         """Return what saving to a path would overwrite, to ask the user.
@@ -312,9 +318,9 @@ class SceneDocument:
             with self.console.warnings_noted():
                 export_gltf(self.scene, name)
         except Engine3DError as error:
-            self.console.write("error", f"Export: {error}")
+            self.console.write("error", translated("Export: {reason}", reason=error))
             return False
-        self.console.write("action", f"Export {name}")
+        self.console.write("action", translated("Export {name}", name=name))
         return True
 
     def _target(self, path: str | os.PathLike[str] | None) -> str:
@@ -360,11 +366,9 @@ class SceneDocument:
         }
 
 
-def _labelled(what: str, command: Command | None) -> str:
+def _short(command: Command) -> str:
     """Return the label of a step to be undone or redone, shortened."""
-    if command is None:
-        return what
     label = command.label
     if not label.startswith("Python"):
         label = label[:1].lower() + label[1:]
-    return f"{what} {label if len(label) <= LONGEST_LABEL else label[: LONGEST_LABEL - 1] + '…'}"
+    return label if len(label) <= LONGEST_LABEL else label[: LONGEST_LABEL - 1] + "…"

@@ -25,10 +25,14 @@ from .selection import topmost
 
 def counted(what: str, nodes: Sequence[Node]) -> str:
     """Return a label: "Delete 'lamp'" for one node, "Delete 3 nodes" for several."""
+    return f"{what} {named(nodes)}"
+
+
+def named(nodes: Sequence[Node]) -> str:
+    """Return what to call nodes: "'lamp'" for one, "3 nodes" for several."""
     if len(nodes) == 1:
-        return f"{what} {nodes[0].name!r}"
-    things = translated_count("{count:,} node", "{count:,} nodes", len(nodes))
-    return f"{what} {things}"
+        return repr(nodes[0].name)
+    return translated_count("{count:,} node", "{count:,} nodes", len(nodes))
 
 
 class AddNodes(Command):

@@ -252,8 +252,11 @@ def freeze_culling(viewer, step: int) -> None:
     """Freeze culling at this view, and the counters, until the key is released; or end that."""
     is_frozen = viewer.view_renderer.culling.camera is not None
     viewer.view_renderer.freeze_culling(None if is_frozen else viewer.view)
-    said = "for each view" if is_frozen else "as from here, while C is held"
-    viewer.say(f"culling and counting {said}")
+    viewer.say(
+        "culling and counting for each view"
+        if is_frozen
+        else "culling and counting as from here, while C is held"
+    )
 
 
 def toggle_playing(viewer, step: int) -> None:
@@ -292,7 +295,7 @@ def _moving(step_sign: int):
             return
         moved = viewer.time + step_sign * TIME_SHARE * viewed.period
         viewer.time = moved % viewed.period
-        viewer.say(f"{viewer.time:.2f} of {viewed.period:.2f} s")
+        viewer.say("{time:.2f} of {period:.2f} s", time=viewer.time, period=viewed.period)
 
     return move
 
@@ -310,7 +313,7 @@ def _speeding(step_sign: int):
             viewer.speed = faster[0] if faster else SPEEDS[-1]
         else:
             viewer.speed = slower[-1] if slower else SPEEDS[0]
-        viewer.say(f"speed: {viewer.speed:g}×")
+        viewer.say("speed: {speed:g}×", speed=viewer.speed)
 
     return change
 
@@ -408,7 +411,8 @@ def toggle_help(viewer, step: int) -> None:
 def toggle_controls(viewer, step: int) -> None:
     """Toggle the bar, the ball of axes and the time line."""
     viewer.controls.shown = not viewer.controls.shown
-    viewer.say(f"bar, ball and time line: {'on' if viewer.controls.shown else 'off'}")
+    is_on = viewer.controls.shown
+    viewer.say("bar, ball and time line: on" if is_on else "bar, ball and time line: off")
 
 
 def toggle_fullscreen(viewer, step: int) -> None:

@@ -178,7 +178,7 @@ class Files:
         if not os.path.lexists(path):
             answer(path)
             return
-        question = f"{printable(path)} is there already."
+        question = translated("{name} is there already.", name=printable(path))
         self._ask(question, {"Overwrite": lambda: answer(path), "Cancel": lambda: None})
 
     def _save_or_export(self, path: str, then: Callable[[], object]) -> None:
@@ -188,11 +188,13 @@ class Files:
             return
         stem = os.path.splitext(path)[0]
         scene = stem + SCENE_EXTENSION
-        export = f"Export as {printable(os.path.basename(path))}"
-        save = f"Save as {printable(os.path.basename(scene))}"
+        export = translated("Export as {name}", name=printable(os.path.basename(path)))
+        save = translated("Save as {name}", name=printable(os.path.basename(scene)))
         document = self._workspace.document
         self._ask(
-            "The editor saves scenes with all that they hold as .e3d.json. glTF holds less.",
+            translated(
+                "The editor saves scenes with all that they hold as .e3d.json. glTF holds less."
+            ),
             {
                 save: lambda: self._save_to(scene, then),
                 export: lambda: self._unless_there(path, document.export),

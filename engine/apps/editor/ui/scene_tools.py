@@ -68,7 +68,7 @@ def _draw_views(workspace: Workspace) -> None:
     if cameras:
         imgui.separator_text("Through a camera")
     for node in cameras:
-        name = f"{node.name or 'camera'}##{node.id}"
+        name = f"{node.name or translated('camera')}##{node.id}"
         if imgui.menu_item_simple(name, None, workspace.through.node is node):
             workspace.through.look(node, workspace.bounds)
     imgui.end_popup()

@@ -34,6 +34,7 @@ LABELLED = (
     "drag_int",
     "input_float",
     "input_int",
+    "input_int2",
     "input_text",
     "label_text",
     "open_popup",

@@ -369,7 +369,7 @@ class Workspace:
         is_camera = selected is not None and isinstance(selected.object, Camera)
         node = selected if is_camera else self.scene.data.camera_node()
         if node is None:
-            self.console.write("message", "there is no camera: Add has one")
+            self.console.write("message", translated("there is no camera: Add has one"))
         else:
             self.through.look(node, self.bounds)
 

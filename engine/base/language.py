@@ -14,7 +14,7 @@ import re
 import string
 from collections.abc import Iterator, Mapping
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from ..errors import InvalidArgumentError
 from .catalogue import Catalogue
@@ -159,7 +159,7 @@ class _Filler(string.Formatter):
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Real):
-            return translated_number(value, format_spec)
+            return translated_number(cast(float, value), format_spec)
         return format(value, format_spec)
 
 

@@ -120,7 +120,9 @@ def split(viewer: Viewer) -> Value:
 
 def debug_drawing(viewer: Viewer) -> Value:
     drawing = viewer.view_renderer.culling.drawing
-    return Value(translated_choice("drawing", drawing or "nothing"), drawing is not None)
+    if drawing is None:
+        return switch(False)
+    return Value(translated_choice("drawing", drawing), True)
 
 
 def theme(viewer: Viewer) -> Value:

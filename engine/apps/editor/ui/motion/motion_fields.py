@@ -77,7 +77,7 @@ class MotionFields:
         elif isinstance(motion, Track):
             self._draw_keys(motion)
         kind = translated_choice("motion", NAMES[type(motion)])
-        if imgui.small_button(f"{translated('Remove the {motion}', motion=kind)}###remove"):
+        if imgui.small_button(translated("Remove the {motion}", motion=kind)):
             actions.remove(self._workspace, motion)
 
     # The kinds

@@ -90,7 +90,7 @@ PROBE = "#include <Python.h>\n#include <math.h>\n"
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
-DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md", "ttf", "txt"]
+DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md", "ttf", "txt", "po"]
 # What desktops and `man` look for below the prefix -> the file of data/desktop that goes there.
 DESKTOP_FILES = {
     "share/applications": "engine3d.desktop",

@@ -166,4 +166,9 @@ def printable(text: str) -> str:
     """Return an external name on one line, with control characters escaped."""
     if text.isprintable():
         return text
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    # The no-break space steers nothing, though Python counts it with what is not printed.
+    shown = (c.isprintable() or c == "\u00a0" for c in text)
+    return "".join(
+        c if is_shown else c.encode("unicode_escape").decode()
+        for c, is_shown in zip(text, shown, strict=True)
+    )

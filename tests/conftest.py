@@ -22,6 +22,8 @@ def pytest_configure(config):
     # Without those of Windows, XDG's count there, too.
     for name in ("APPDATA", "LOCALAPPDATA"):
         os.environ.pop(name, None)
+    # Nor is their language: this list comes before the locale.
+    os.environ["LANGUAGE"] = "en"
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
         _keep_bytecode(config)
     # Taken away from runs of pytest that tests start.

@@ -34,6 +34,7 @@ from engine3d.apps.golden.comparison import compare
 from engine3d.apps.golden.difference_picture import difference_picture
 from engine3d.apps.scenes import load_demo
 from engine3d.apps.viewer.viewer import Viewer
+from engine3d.base.language import speaking
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
@@ -399,6 +400,12 @@ def viewer_bar() -> np.ndarray:
     return in_a_window("island.obj", open_menu)
 
 
+def french() -> np.ndarray:
+    """The list of all commands in French."""
+    with speaking("fr"):
+        return in_a_window("island.obj", lambda viewer: viewer.perform("toggle_help"))
+
+
 def city() -> np.ndarray:
     """The city as one who walks sees it, and from above."""
     tiles = []
@@ -564,6 +571,7 @@ PICTURES = {
     "viewer": viewer,
     "viewer_help": viewer_help,
     "viewer_bar": viewer_bar,
+    "french": french,
     "city": city,
     "impostors": impostors,
     "golden": golden,

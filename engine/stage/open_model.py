@@ -10,6 +10,7 @@ import os
 from collections.abc import Callable
 from typing import Any, cast
 
+from ..base.language import translated, translated_number
 from ..choices import ColorLike
 from ..errors import InvalidArgumentError, printable, warn
 from ..io.loaders import load_document, load_texture
@@ -241,11 +242,11 @@ def _is_plain(material: Material) -> bool:
 
 def document_lines(document: Document) -> list[str]:
     """Return the format and the counts of a document, one per line."""
-    lines = [f"{'format':<12}{document.format:>11}"]
+    lines = [f"{translated('format'):<12}{document.format:>11}"]
     if document.unit:
-        lines.append(f"{'unit':<12}{document.unit:>11}")
+        lines.append(f"{translated('unit'):<12}{document.unit:>11}")
     for name, entries in document.counts.items():
         count = entries if isinstance(entries, int) else len(entries)
         if count:
-            lines.append(f"{name:<12}{count:>11,d}")
+            lines.append(f"{translated(name):<12}{translated_number(count, '>11,d')}")
     return lines

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
+from ..base.language import translated
 from ..model.geometry.mesh import Mesh
 from ..model.geometry.vertex_attributes import attributes_of
 from ..model.materials.linear_colors import floats_are_linear
@@ -78,7 +79,7 @@ class Visibility:
         """Return the objects in scene order."""
         return [
             Entry(
-                node.name or f"object {node.id}",
+                node.name or translated("object {number}", number=node.id),
                 _triangles(node.object) if isinstance(node.object, DRAWABLE) else 0,
                 node not in self._hidden_nodes,
             )
@@ -94,7 +95,7 @@ class Visibility:
             faces = np.bincount(mesh.material_ids, minlength=len(mesh.materials))
             for material, count in zip(mesh.materials, faces.tolist(), strict=False):
                 counts[_key(material)] = counts.get(_key(material), 0) + count * times
-        names = [key if isinstance(key, str) else "unnamed" for key in self._materials]
+        names = [key if isinstance(key, str) else translated("unnamed") for key in self._materials]
         shown = [key not in self._hidden_materials for key in self._materials]
         return list(map(Entry, names, counts.values(), shown))
 

@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from engine3d.apps.cli import main
-from engine3d.apps.cli.commands import learn
 from engine3d.apps.learn.learn_window import LearnWindow
 
 pytestmark = pytest.mark.usefixtures("no_screen")
@@ -40,23 +39,6 @@ def english(monkeypatch):
     for name in ("LANGUAGE", "LC_ALL", "LC_MESSAGES"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("LANG", "en_GB.UTF-8")
-
-
-@pytest.mark.parametrize(
-    ("environment", "language"),
-    [
-        ({}, "en"),
-        ({"LANG": "fr_FR.UTF-8"}, "fr"),
-        ({"LANG": "fr"}, "fr"),
-        ({"LANG": "de_DE.UTF-8"}, "en"),
-        ({"LANG": "fr_FR.UTF-8", "LC_ALL": "en_US.UTF-8"}, "en"),
-        ({"LANG": "en_US.UTF-8", "LC_MESSAGES": "fr_CA.UTF-8"}, "fr"),
-        ({"LANG": "en_US.UTF-8", "LANGUAGE": "fr:en"}, "fr"),
-        ({"LANGUAGE": "fr"}, "en"),
-    ],
-)
-def test_the_language_is_that_of_the_locale(environment, language):
-    assert learn.usual_language(environment) == language
 
 
 def test_titles_are_in_the_language_of_the_locale(capsys, monkeypatch):

@@ -222,6 +222,19 @@ def options_in_files(args: argparse.Namespace, models: Sequence[str]) -> list[Sa
     return found
 
 
+def said_for_all(name: str) -> Said | None:
+    """Return what the user's own file says last of an option, for whatever is shown; or None.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+        The file cannot be read, or holds something else.
+    """
+    asked = argparse.Namespace(config=None, no_config=False)
+    said = [one for one in options_in_files(asked, ()) if one.name == name]
+    return said[-1] if said else None
+
+
 def _counts(patterns, models: Sequence[str], place: str, path: str) -> bool:
     """Return whether an entry applies to a model, by its name or the end of its path."""
     if patterns is None:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from ...base.files import json_records
 from ...base.files.atomic_write import LEFT_BEHIND, atomic_write
+from ...base.language import translated
 from ...base.system import NO_LINK, READ_WRITE, locked
 from ...errors import FileAccessError, FileFormatError, warn
 from ...io.writing.scene_saving import scene_text
@@ -90,7 +91,8 @@ class Autosave:
                 file.write(b'{"autosave": ' + json.dumps(saying).encode("ascii") + b",\n")
                 file.write(content.removeprefix(b"{\n"))
         except (OSError, FileAccessError) as error:
-            document.console.write("warning", f"no copy was made in case of a crash: {error}")
+            said = translated("no copy was made in case of a crash: {reason}", reason=error)
+            document.console.write("warning", said)
             return False
         return True
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...base.files.stamps import FileState
+from ...base.language import translated
 from ...errors import Engine3DError, FileAccessError, InvalidArgumentError, printable
 from ...io.loaders import load_document
 from ...io.reading.documents import Document
@@ -95,7 +96,9 @@ class SceneDocument:
             with self.console.warnings_noted():
                 self.history.do(command, drag)
         except Engine3DError as error:
-            self.console.write("error", f"{command.label}: {error}")
+            self.console.write(
+                "error", translated("{what}: {detail}", what=command.label, detail=error)
+            )
             return False
         if command is self.history.last:  # the drag continues in the same step
             self.console.write("action", command.label)
@@ -105,11 +108,11 @@ class SceneDocument:
 
     def undo(self) -> bool:
         """Undo the last step; return whether there was one."""
-        return self._step("Undo", self.history.undo)
+        return self._step(translated("Undo"), self.history.undo)
 
     def redo(self) -> bool:
         """Redo the last undone step; return whether there was one."""
-        return self._step("Redo", self.history.redo)
+        return self._step(translated("Redo"), self.history.redo)
 
     @classmethod
     def open(cls, path: str | os.PathLike[str], *, console: Console | None = None) -> SceneDocument:
@@ -129,7 +132,7 @@ class SceneDocument:
         document._keep_materials(loaded)
         if loaded.scene is not None:
             document.path, document._state = name, state
-        console.write("action", f"Open {name}")
+        console.write("action", translated("Open {name}", name=name))
         return document
 
     @classmethod
@@ -160,7 +163,7 @@ class SceneDocument:
             raise FileAccessError("cannot begin a scene: its folder is not there", path)
         document = cls(new(), console=console)
         document.path, document._state = name, FileState(name)
-        document.console.write("action", f"Begin {name}")
+        document.console.write("action", translated("Begin {name}", name=name))
         return document
 
     @classmethod
@@ -179,7 +182,8 @@ class SceneDocument:
         document._keep_materials(loaded)
         document.path = copy.document
         document.history.mark_unsaved()
-        console.write("action", f"Recover {copy.document or 'a scene without a name'}")
+        name = copy.document or translated("a scene without a name")
+        console.write("action", translated("Recover {name}", name=name))
         return document
 
     def _keep_materials(self, loaded: Document) -> None:
@@ -222,18 +226,26 @@ class SceneDocument:
     @property
     def title(self) -> str:
         """The file's name, with a star if there are unsaved changes."""
-        name = "untitled" if self.path is None else printable(os.path.basename(self.path))
+        name = (
+            translated("untitled") if self.path is None else printable(os.path.basename(self.path))
+        )
         return f"{name}*" if self.is_modified else name
 
     @property
     def undo_label(self) -> str:
         """What undoing does, such as "Undo move 'box'"; "Undo" if there is nothing."""
-        return _labelled("Undo", self.history.last)
+        last = self.history.last
+        if last is None:
+            return translated("Undo")
+        return translated("Undo {label}", label=_short(last))
 
     @property
     def redo_label(self) -> str:
         """What redoing does, as `undo_label`."""
-        return _labelled("Redo", self.history.next)
+        then = self.history.next
+        if then is None:
+            return translated("Redo")
+        return translated("Redo {label}", label=_short(then))
 
     def save_would_overwrite(self, path: str | os.PathLike[str] | None = None) -> str | None:
         """Return what saving to a path would overwrite, to ask the user.
@@ -252,11 +264,11 @@ class SceneDocument:
         if not os.path.lexists(name):
             return None
         if self.path is None or os.path.realpath(name) != os.path.realpath(self.path):
-            return f"{printable(name)} is there already"
+            return translated("{name} is there already", name=printable(name))
         if self._state is None:
-            return f"{printable(name)} may have changed since"
+            return translated("{name} may have changed since", name=printable(name))
         if self._state.changed():
-            return f"{printable(name)} was changed by another program"
+            return translated("{name} was changed by another program", name=printable(name))
         return None
 
     def save(self, path: str | os.PathLike[str] | None = None, *, overwrite: bool = False) -> bool:
@@ -277,7 +289,7 @@ class SceneDocument:
         name = self._target(path)
         reason = None if overwrite else self.save_would_overwrite(name)
         if reason is not None:
-            self.console.write("error", f"Save: {reason}")
+            self.console.write("error", translated("Save: {reason}", reason=reason))
             return False
         try:
             with self.console.warnings_noted():
@@ -286,11 +298,11 @@ class SceneDocument:
                 else:
                     save_scene(self.scene, name)
         except Engine3DError as error:
-            self.console.write("error", f"Save: {error}")
+            self.console.write("error", translated("Save: {reason}", reason=error))
             return False
         self.path, self._state = name, FileState(name)
         self.history.mark_saved()
-        self.console.write("action", f"Save {name}")
+        self.console.write("action", translated("Save {name}", name=name))
         return True
 
     def export(self, path: str | os.PathLike[str]) -> bool:
@@ -306,9 +318,9 @@ class SceneDocument:
             with self.console.warnings_noted():
                 export_gltf(self.scene, name)
         except Engine3DError as error:
-            self.console.write("error", f"Export: {error}")
+            self.console.write("error", translated("Export: {reason}", reason=error))
             return False
-        self.console.write("action", f"Export {name}")
+        self.console.write("action", translated("Export {name}", name=name))
         return True
 
     def _target(self, path: str | os.PathLike[str] | None) -> str:
@@ -326,11 +338,16 @@ class SceneDocument:
             command = step()
         except Engine3DError as error:  # the scene was changed without the history
             self.history.clear()
-            self.console.write("error", f"{what}: {error}; the history was cleared")
+            self.console.write(
+                "error",
+                translated("{what}: {detail}; the history was cleared", what=what, detail=error),
+            )
             return False
         if command is None:
             return False
-        self.console.write("action", f"{what}: {command.label}")
+        self.console.write(
+            "action", translated("{what}: {detail}", what=what, detail=command.label)
+        )
         self.selection.set([node for node in command.nodes if node.scene is self.scene])
         return True
 
@@ -349,11 +366,9 @@ class SceneDocument:
         }
 
 
-def _labelled(what: str, command: Command | None) -> str:
+def _short(command: Command) -> str:
     """Return the label of a step to be undone or redone, shortened."""
-    if command is None:
-        return what
     label = command.label
     if not label.startswith("Python"):
         label = label[:1].lower() + label[1:]
-    return f"{what} {label if len(label) <= LONGEST_LABEL else label[: LONGEST_LABEL - 1] + '…'}"
+    return label if len(label) <= LONGEST_LABEL else label[: LONGEST_LABEL - 1] + "…"

@@ -10,6 +10,7 @@ import os
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...base.language import translated
 from ...errors import InvalidArgumentError
 from ...io.loaders import formats, load_document, load_texture
 from ...io.reading.sources import stem_and_extension
@@ -61,7 +62,7 @@ def drop_file(
         group = scene.add(name=stem, translation=offset)
         copy_nodes(scene, {node: group for node in loaded.nodes if node.parent is None})
 
-    return AddNodes(scene, add, f"Add {os.path.basename(name)}")
+    return AddNodes(scene, add, translated("Add {name}", name=os.path.basename(name)))
 
 
 def _underside(scene: Scene) -> np.ndarray:
@@ -78,4 +79,8 @@ def _paint(name: str, onto: Node | None) -> Command:
     if not isinstance(mesh, Mesh):
         raise InvalidArgumentError("an image becomes a texture: drop it onto a node with a mesh")
     texture = load_texture(name)
-    return SetValues(mesh.materials, {"texture": texture}, f"Paint with {os.path.basename(name)}")
+    return SetValues(
+        mesh.materials,
+        {"texture": texture},
+        translated("Paint with {name}", name=os.path.basename(name)),
+    )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ...base.language import translated
 from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.twins import twin_of
@@ -15,6 +16,7 @@ from ...model.materials.material import Material, copy_of
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.nodes import Node
 from .history import Command
+from .node_commands import named
 from .resource_list import ResourceList
 from .value_commands import SetValues
 
@@ -46,7 +48,7 @@ class DiscardMaterial(Command):
     def __init__(self, resources: ResourceList, material: Material) -> None:
         if resources.users(material):
             raise InvalidArgumentError("nodes use this material")
-        self.label = f"Delete the material {material.name!r}"
+        self.label = translated("Delete the material {name}", name=repr(material.name))
         self._resources, self._material = resources, material
 
     def do(self) -> None:
@@ -84,8 +86,8 @@ class Dress(Command):
         self.nodes = tuple(node for node in nodes if mesh_of(node) is not None)
         if not self.nodes:
             raise InvalidArgumentError("a material needs a node with a mesh")
-        what = repr(self.nodes[0].name) if len(self.nodes) == 1 else f"{len(self.nodes)} nodes"
-        self.label = f"Give {material.name or 'a material'} to {what}"
+        name = material.name or translated("a material")
+        self.label = translated("Give {name} to {things}", name=name, things=named(self.nodes))
         self._resources, self._material, self._slot = resources, material, slot
         self._steps: list[SetValues] | None = None
         self._kept: list[Material] = []

@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...base import linalg
+from ...base.language import translated, translated_choice
 from ...model.motion.node_motion import NodeMotion
 from ...model.motion.orbits import Orbit, check_center, orbit_plane
 from ...model.motion.paths import Path
@@ -26,7 +27,7 @@ USUAL_PERIOD = 4.0
 #: Keys nearer in time than this are one.
 SAME_TIME = 1e-4
 _KINDS = {Spin: "spins", Orbit: "orbits", Path: "paths", Track: "tracks"}
-_NAMES = {Spin: "spin", Orbit: "orbit", Path: "path", Track: "keyframes"}
+NAMES = {Spin: "spin", Orbit: "orbit", Path: "path", Track: "keyframes"}
 
 
 class SetMotions(Command):
@@ -110,7 +111,12 @@ def removed(motion: NodeMotion) -> Callable[[Motions], Motions]:
 def label_of(what: str, motion: NodeMotion) -> str:
     """Return a label such as "Add the orbit of 'Moon'"."""
     node = motion.node
-    return f"{what} the {_NAMES[type(motion)]} of {'' if node is None else node.name!r}"
+    return translated(
+        "{what} the {motion} of {name}",
+        what=translated(what),
+        motion=translated_choice("motion", NAMES[type(motion)]),
+        name=repr("" if node is None else node.name),
+    )
 
 
 # New motions, as the places of nodes suggest

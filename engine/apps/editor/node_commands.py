@@ -9,6 +9,7 @@ import copy
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from ...base import linalg
+from ...base.language import translated, translated_count
 from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
 from ...model.motion.skins import Skin
@@ -24,7 +25,14 @@ from .selection import topmost
 
 def counted(what: str, nodes: Sequence[Node]) -> str:
     """Return a label: "Delete 'lamp'" for one node, "Delete 3 nodes" for several."""
-    return f"{what} {nodes[0].name!r}" if len(nodes) == 1 else f"{what} {len(nodes)} nodes"
+    return f"{what} {named(nodes)}"
+
+
+def named(nodes: Sequence[Node]) -> str:
+    """Return what to call nodes: "'lamp'" for one, "3 nodes" for several."""
+    if len(nodes) == 1:
+        return repr(nodes[0].name)
+    return translated_count("{count:,} node", "{count:,} nodes", len(nodes))
 
 
 class AddNodes(Command):
@@ -78,7 +86,7 @@ class DeleteNodes(Command):
 
     def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
         self.nodes = topmost(nodes)
-        self.label = counted("Delete", self.nodes)
+        self.label = counted(translated("Delete"), self.nodes)
         self._scene = scene
         self._places: list[tuple[Node, Node | None, Node | None]] = []
 
@@ -104,7 +112,7 @@ class DuplicateNodes(AddNodes):
         super().__init__(
             scene,
             lambda scene: copy_nodes(scene, {node: node.parent for node in originals}),
-            counted("Duplicate", originals),
+            counted(translated("Duplicate"), originals),
         )
 
 
@@ -132,8 +140,9 @@ class Reparent(Command):
         keep_world_pose: bool = True,
     ) -> None:
         self.nodes = topmost(nodes)
-        under = "the scene" if parent is None else repr(parent.name)
-        self.label = f"{counted('Move', self.nodes)} under {under}"
+        under = translated("the scene") if parent is None else repr(parent.name)
+        moved = counted("Move", self.nodes)
+        self.label = translated("{move} under {parent}", move=moved, parent=under)
         self._scene, self._parent, self._before = scene, parent, before
         self._keeps = keep_world_pose
         self._places: list[tuple[Node, Node | None, Node | None]] = []
@@ -163,7 +172,7 @@ class GroupNodes(Command):
 
     def __init__(self, scene: Scene, nodes: Iterable[Node], name: str = "group") -> None:
         self._members = topmost(nodes)
-        self.label = counted("Group", self._members)
+        self.label = counted(translated("Group"), self._members)
         parent = self._members[0].parent
         self._add = AddNodes(scene, lambda scene: scene.add(name=name, parent=parent), "")
         self._scene = scene
@@ -201,7 +210,7 @@ class JoinNodes(Command):
         chosen = [node for node in nodes if isinstance(node.object, Mesh)]
         if not chosen:
             raise InvalidArgumentError("none of the nodes holds a mesh to be joined")
-        self.label = counted("Join", chosen)
+        self.label = counted(translated("Join"), chosen)
         self._scene = scene
         name, meshes = chosen[0].name, [node.object for node in chosen]
         poses = [node.world_pose for node in chosen]
@@ -240,7 +249,7 @@ class MoveNodes(Command):
         label: str = "",
     ) -> None:
         self.nodes = tuple(nodes)
-        self.label = label or counted("Move", self.nodes)
+        self.label = label or counted(translated("Move"), self.nodes)
         self._scene, self._move = scene, move
         self._new: Placements | None = None
 

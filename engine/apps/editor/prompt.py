@@ -14,6 +14,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
+from ...base.language import translated
 from ...model.scene.scene import Scene
 from .console import Console
 from .history import Command, History
@@ -132,7 +133,9 @@ class _Interpreter(code.InteractiveInterpreter):
         try:
             super().runcode(code)
         except SystemExit:
-            self._console.write("warning", "the editor goes on: close its window to end it")
+            self._console.write(
+                "warning", translated("the editor goes on: close its window to end it")
+            )
 
     def write(self, data: str) -> None:
         self._console.write("error", data.rstrip("\n"))

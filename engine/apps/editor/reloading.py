@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 
+from ...base.language import translated
 from ...errors import FileFormatError, InvalidArgumentError
 from ...io.loaders import load_document, load_mesh, load_texture
 from ...io.resources import become
@@ -40,7 +41,7 @@ class Reload(Command):
         self._thing = thing
         self._path = own if path is None else os.path.abspath(os.fspath(path))
         self._new: dict | None = None
-        self.label = f"Load {os.path.basename(self._path)} again"
+        self.label = translated("Load {name} again", name=os.path.basename(self._path))
 
     def do(self) -> None:
         if self._new is not None:

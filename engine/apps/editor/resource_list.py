@@ -10,6 +10,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from ...base.language import translated
 from ...io.resources import size_of
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, origin_of
@@ -126,7 +127,7 @@ class ResourceList:
 
 
 def _entry(thing: Thing, users: int) -> Entry:
-    name = thing.name or "unnamed"
+    name = thing.name or translated("unnamed")
     if isinstance(thing, Material):
         return Entry(name, "material", thing, 0, None, users)
     if isinstance(thing, Texture):

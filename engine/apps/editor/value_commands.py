@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ...base.held_values import kept
+from ...base.language import translated, translated_count
 from ...model.materials.material import Material, put_states_color, states_color
 from ...model.scene.cameras import Camera
 from ...model.scene.lights import DirectLight
@@ -32,7 +33,9 @@ class SetEach(Command):
         things = [thing for thing, _ in self._values]
         self.nodes = tuple(thing for thing in things if isinstance(thing, Node))
         names = dict.fromkeys(name for _, held in self._values for name in held)
-        self.label = label or f"Set {', '.join(names)} of {_named(things)}"
+        self.label = label or translated(
+            "Set {values} of {things}", values=", ".join(names), things=_named(things)
+        )
         self._old: list[tuple[Any, str, Any, bool]] = []
 
     def do(self) -> None:
@@ -89,6 +92,6 @@ def check(thing: Any) -> None:
 
 def _named(things: Sequence[Any]) -> str:
     if len(things) != 1:
-        return f"{len(things)} things"
+        return translated_count("{count:,} thing", "{count:,} things", len(things))
     name = getattr(things[0], "name", "")
     return repr(name) if name else type(things[0]).__name__

@@ -18,7 +18,7 @@ from .code_colors import COLORS, colored
 from .course_session import Session
 from .lesson_programs import Listing
 from .rich_text import Span, paragraphs, wrapped
-from .words import KEYS, say
+from .words import say, told_keys
 
 #: Pixels of the em in a window of the usual size, on a screen of the usual density.
 TYPE, LEAST_TYPE, USUAL_SIZE = 14, 12, (1240, 720)
@@ -181,8 +181,8 @@ def _head_and_foot(pen: _Pen, session: Session, size: tuple[int, int], gap: int)
 def _help(pen: _Pen, language: str, top: int) -> None:
     pen.y = top
     pen.heading(say("help", language))
-    across = max(pen.mono.width(keys) for keys, _ in KEYS[language]) + pen.line
-    for keys, meaning in KEYS[language]:
+    across = max(pen.mono.width(keys) for keys, _ in told_keys(language)) + pen.line
+    for keys, meaning in told_keys(language):
         pen.canvas.text(pen.left, pen.y, keys, COLORS["number"], font=pen.mono)
         pen.canvas.text(pen.left + across, pen.y, meaning, INK, font=pen.sans)
         pen.y += pen.line + pen.line // 4

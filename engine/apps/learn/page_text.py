@@ -15,7 +15,7 @@ from .course_session import Session
 from .lesson_programs import Listing
 from .page_picture import beside_or_below
 from .rich_text import Span, paragraphs, wrapped
-from .words import KEYS, say
+from .words import say, told_keys
 
 RESET = "\x1b[0m"
 _STYLES = {"bold": "\x1b[1m", "italic": "\x1b[3m", "code": "\x1b[36m"}
@@ -41,7 +41,7 @@ def text_page(session: Session, cells: tuple[int, int], scroll: int) -> tuple[li
     language = session.language
     if session.shows_help:
         body = [_heading(say("help", language))]
-        body += [f"{keys:<20} {meaning}" for keys, meaning in KEYS[language]]
+        body += [f"{keys:<20} {meaning}" for keys, meaning in told_keys(language)]
     elif session.is_at_end:
         body = [_heading(say("end", language)), *_prose(say("after", language), columns)]
     else:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+from ...base.language import translated, translated_choice
 from ...io.output.animation_files import numbered_path
 from ...stage.appearance import CHOICES, following
 from ...stage.overlays.debug_lines import DEBUG_DRAWINGS
@@ -50,7 +51,11 @@ def _cycling(option: str):
         appearance = viewer.view_renderer.appearance
         value = following(getattr(appearance, option), CHOICES[option], step)
         setattr(appearance, option, value)
-        viewer.say(f"{option.replace('_', ' ')}: {value or 'off'}")
+        viewer.say(
+            "{what}: {detail}",
+            what=translated(option.replace("_", " ")),
+            detail=translated_choice(option, value or "off"),
+        )
 
     return cycle
 
@@ -66,13 +71,13 @@ def toggle_edges(viewer, step: int) -> None:
     """Toggle the wireframe over the faces."""
     appearance = viewer.view_renderer.appearance
     appearance.wireframe = None if appearance.wireframe == "overlay" else "overlay"
-    viewer.say(f"edges: {'on' if appearance.wireframe else 'off'}")
+    viewer.say("edges: on" if appearance.wireframe else "edges: off")
 
 
 def _toggle_mode(viewer, mode: str) -> None:
     appearance = viewer.view_renderer.appearance
     appearance.mode = "lit" if appearance.mode == mode else mode
-    viewer.say(f"mode: {appearance.mode}")
+    viewer.say("mode: {mode}", mode=translated_choice("mode", appearance.mode))
 
 
 def toggle_normals_mode(viewer, step: int) -> None:
@@ -90,21 +95,27 @@ def toggle_flat(viewer, step: int) -> None:
     appearance = viewer.view_renderer.appearance
     following = {"flat": "facet", "facet": "smooth"}
     appearance.normals = following.get(appearance.normals, "flat")
-    viewer.say(f"normals: {appearance.normals}")
+    viewer.say("normals: {value}", value=translated_choice("normals", appearance.normals))
 
 
 def cycle_lights(viewer, step: int) -> None:
     """Switch to the next lighting."""
     lighting = viewer.view_renderer.lighting
     lighting.choose(following(lighting.name, lighting.names, step))
-    viewer.say(f"lights: {lighting.name}")
+    viewer.say("lights: {name}", name=translated_choice("lights", lighting.name))
 
 
 def cycle_samples(viewer, step: int) -> None:
     """Switch to the next number of samples per pixel: automatic, or a fixed one."""
     viewer.sampling.fixed = following(viewer.sampling.fixed, (None, *SAMPLES), step)
-    samples = viewer.sampling.fixed or f"{AT_REST}, or fewer to keep {MOTION_FPS:.0f} fps in motion"
-    viewer.say(f"samples per pixel: {samples}")
+    if viewer.sampling.fixed:
+        viewer.say("samples per pixel: {count}", count=viewer.sampling.fixed)
+        return
+    viewer.say(
+        "samples per pixel: {count}, or fewer to keep {fps:.0f} fps in motion",
+        count=AT_REST,
+        fps=MOTION_FPS,
+    )
 
 
 def _scale_lines(viewer, factor: float) -> None:
@@ -112,7 +123,11 @@ def _scale_lines(viewer, factor: float) -> None:
     low, high = LINE_WIDTHS
     appearance.line_width = min(high, max(low, appearance.line_width * factor))
     appearance.point_size = min(high, max(low, viewer.view_renderer.point_size * factor))
-    viewer.say(f"line width: {appearance.line_width:g}, point size: {appearance.point_size:g}")
+    viewer.say(
+        "line width: {width:g}, point size: {size:g}",
+        width=appearance.line_width,
+        size=appearance.point_size,
+    )
 
 
 def widen_lines(viewer, step: int) -> None:
@@ -166,7 +181,7 @@ def _turn_up(viewer, up: str) -> None:
     for view in (viewer.view, viewer.first_view):
         view.up = UP_DIRECTIONS[up]
         viewer.view_renderer.frame(view)
-    viewer.say(f"{up} is up")
+    viewer.say("{axis} is up", axis=up)
 
 
 def turn_y_up(viewer, step: int) -> None:
@@ -199,7 +214,8 @@ def toggle_occlusion(viewer, step: int) -> None:
     """Toggle ambient occlusion."""
     appearance = viewer.view_renderer.appearance
     appearance.ambient_occlusion = not appearance.ambient_occlusion
-    viewer.say(f"ambient occlusion: {'on' if appearance.ambient_occlusion else 'off'}")
+    on = appearance.ambient_occlusion
+    viewer.say("ambient occlusion: on" if on else "ambient occlusion: off")
 
 
 def toggle_split(viewer, step: int) -> None:
@@ -211,29 +227,36 @@ def cycle_debug(viewer, step: int) -> None:
     """Switch to the next debug drawing of culling: boxes, their trees, the frustum, or none."""
     drawing = following(viewer.view_renderer.culling.drawing, DEBUG_DRAWINGS, step)
     viewer.view_renderer.choose_debug(drawing, viewer.view)
-    viewer.say(f"drawn besides: {drawing or 'nothing'}")
+    viewer.say("drawn besides: {what}", what=translated_choice("drawing", drawing or "nothing"))
 
 
 def toggle_textures(viewer, step: int) -> None:
     """Toggle textures; without them, materials show only their colours."""
     view_renderer = viewer.view_renderer
     view_renderer.staging.show_textures(not view_renderer.settings.textures)
-    viewer.say(f"textures: {'on' if view_renderer.settings.textures else 'off'}")
+    viewer.say("textures: on" if view_renderer.settings.textures else "textures: off")
 
 
 def cycle_culling(viewer, step: int) -> None:
     """Switch to the next culling method; the picture is the same."""
     appearance = viewer.view_renderer.appearance
     appearance.culling = following(appearance.culling, CHOICES["culling"], step)
-    viewer.say(f"culling {appearance.culling}: {LEFT_OUT[appearance.culling]}")
+    viewer.say(
+        "culling {method}: {effect}",
+        method=translated_choice("culling", appearance.culling),
+        effect=translated(LEFT_OUT[appearance.culling]),
+    )
 
 
 def freeze_culling(viewer, step: int) -> None:
     """Freeze culling at this view, and the counters, until the key is released; or end that."""
     is_frozen = viewer.view_renderer.culling.camera is not None
     viewer.view_renderer.freeze_culling(None if is_frozen else viewer.view)
-    said = "for each view" if is_frozen else "as from here, while C is held"
-    viewer.say(f"culling and counting {said}")
+    viewer.say(
+        "culling and counting for each view"
+        if is_frozen
+        else "culling and counting as from here, while C is held"
+    )
 
 
 def toggle_playing(viewer, step: int) -> None:
@@ -255,11 +278,11 @@ def cycle_animations(viewer, step: int) -> None:
     chosen = following(now, numbers, step)
     play_clips(viewed, chosen)
     viewer.time = 0.0
-    viewer.say(
-        "all animations"
-        if chosen < 0
-        else f"animation {chosen}: {list(viewed.scene.animations)[chosen]}"
-    )
+    if chosen < 0:
+        viewer.say("all animations")
+        return
+    name = list(viewed.scene.animations)[chosen]
+    viewer.say("animation {number}: {name}", number=chosen, name=name)
 
 
 def _moving(step_sign: int):
@@ -272,7 +295,7 @@ def _moving(step_sign: int):
             return
         moved = viewer.time + step_sign * TIME_SHARE * viewed.period
         viewer.time = moved % viewed.period
-        viewer.say(f"{viewer.time:.2f} of {viewed.period:.2f} s")
+        viewer.say("{time:.2f} of {period:.2f} s", time=viewer.time, period=viewed.period)
 
     return move
 
@@ -290,7 +313,7 @@ def _speeding(step_sign: int):
             viewer.speed = faster[0] if faster else SPEEDS[-1]
         else:
             viewer.speed = slower[-1] if slower else SPEEDS[0]
-        viewer.say(f"speed: {viewer.speed:g}×")
+        viewer.say("speed: {speed:g}×", speed=viewer.speed)
 
     return change
 
@@ -327,7 +350,7 @@ def cycle_theme(viewer, step: int) -> None:
     """Switch between the dark and the light theme."""
     staging = viewer.view_renderer.staging
     staging.theme = following(staging.theme, THEMES, step)
-    viewer.say(f"{staging.theme.name} theme")
+    viewer.say("{name} theme", name=translated_choice("theme", staging.theme.name))
 
 
 def cycle_lists(viewer, step: int) -> None:
@@ -388,7 +411,8 @@ def toggle_help(viewer, step: int) -> None:
 def toggle_controls(viewer, step: int) -> None:
     """Toggle the bar, the ball of axes and the time line."""
     viewer.controls.shown = not viewer.controls.shown
-    viewer.say(f"bar, ball and time line: {'on' if viewer.controls.shown else 'off'}")
+    is_on = viewer.controls.shown
+    viewer.say("bar, ball and time line: on" if is_on else "bar, ball and time line: off")
 
 
 def toggle_fullscreen(viewer, step: int) -> None:
@@ -408,7 +432,7 @@ def save_screenshot(viewer, step: int) -> None:
     except OSError as error:
         viewer.say(str(error))
         return
-    viewer.say(f"saved {path.name}")
+    viewer.say("saved {name}", name=path.name)
 
 
 def save_turntable(viewer, step: int) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+from ...base.language import translated, translated_choice, translated_number
 from ...stage.appearance import DEFAULTS
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ Present: TypeAlias = "Callable[[Viewer], Value]"
 
 def switch(is_on: bool) -> Value:
     """Return the value of what is on or off."""
-    return Value("on" if is_on else "off", is_on)
+    return Value(translated("on" if is_on else "off"), is_on)
 
 
 def option(name: str) -> Present:
@@ -36,7 +37,7 @@ def option(name: str) -> Present:
 
     def present(viewer: Viewer) -> Value:
         value = getattr(viewer.view_renderer.appearance, name)
-        return Value(str(value or "off"), value != DEFAULTS[name])
+        return Value(translated_choice(name, str(value or "off")), value != DEFAULTS[name])
 
     return present
 
@@ -52,21 +53,21 @@ def setting(name: str) -> Present:
 
 
 def line_width(viewer: Viewer) -> Value:
-    return Value(f"{viewer.view_renderer.appearance.line_width:g}")
+    return Value(translated_number(viewer.view_renderer.appearance.line_width, "g"))
 
 
 def lights(viewer: Viewer) -> Value:
-    return Value(viewer.view_renderer.lighting.name)
+    return Value(translated_choice("lights", viewer.view_renderer.lighting.name))
 
 
 def samples(viewer: Viewer) -> Value:
     fixed = viewer.sampling.fixed
-    return Value("automatic" if fixed is None else str(fixed), fixed is not None)
+    return Value(translated("automatic") if fixed is None else str(fixed), fixed is not None)
 
 
 def projection(viewer: Viewer) -> Value:
     is_parallel = viewer.view.orthographic
-    return Value("orthographic" if is_parallel else "perspective", is_parallel)
+    return Value(translated("orthographic" if is_parallel else "perspective"), is_parallel)
 
 
 def up_axis(letter: str) -> Present:
@@ -88,28 +89,29 @@ def frozen(viewer: Viewer) -> Value:
 
 
 def playing(viewer: Viewer) -> Value:
-    return Value("playing" if viewer.playing else "paused", viewer.playing)
+    return Value(translated("playing" if viewer.playing else "paused"), viewer.playing)
 
 
 def speed(viewer: Viewer) -> Value:
-    return Value(f"{viewer.speed:g}×", viewer.speed != 1.0)
+    return Value(f"{translated_number(viewer.speed, 'g')}×", viewer.speed != 1.0)
 
 
 def time(viewer: Viewer) -> Value:
     is_moving = viewer.view_renderer.viewed.update is not None
-    return Value(f"{viewer.time:.2f} s" if is_moving else "")
+    return Value(f"{translated_number(viewer.time, '.2f')} s" if is_moving else "")
 
 
 def animation(viewer: Viewer) -> Value:
     player = viewer.view_renderer.viewed.player
     if player is None:
-        return Value("none")
+        return Value(translated("none"))
     return Value(", ".join(clip.name for clip in player.playing))
 
 
 def statistics(viewer: Viewer) -> Value:
-    names = {None: "off", "short": "a line", "long": "all"}
-    return Value(names[viewer.statistics], viewer.statistics is not None)
+    if viewer.statistics is None:
+        return switch(False)
+    return Value(translated("a line" if viewer.statistics == "short" else "all"), True)
 
 
 def split(viewer: Viewer) -> Value:
@@ -118,11 +120,13 @@ def split(viewer: Viewer) -> Value:
 
 def debug_drawing(viewer: Viewer) -> Value:
     drawing = viewer.view_renderer.culling.drawing
-    return Value(drawing or "off", drawing is not None)
+    if drawing is None:
+        return switch(False)
+    return Value(translated_choice("drawing", drawing), True)
 
 
 def theme(viewer: Viewer) -> Value:
-    return Value(viewer.view_renderer.theme.name)
+    return Value(translated_choice("theme", viewer.view_renderer.theme.name))
 
 
 def controls(viewer: Viewer) -> Value:
@@ -135,7 +139,7 @@ def section(viewer: Viewer) -> Value:
 
 def explosion(viewer: Viewer) -> Value:
     amount = viewer.inspector.amount
-    return Value(f"{amount:.2f}" if amount else "off", amount != 0.0)
+    return Value(translated_number(amount, ".2f"), True) if amount else switch(False)
 
 
 def measured(viewer: Viewer) -> Value:

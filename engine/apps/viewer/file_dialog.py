@@ -10,6 +10,7 @@ import os
 from typing import TYPE_CHECKING
 
 from ...base.files.folder_listing import Item, list_folder
+from ...base.language import translated
 from ...errors import printable
 from ..desktop.recent_files import RecentFiles
 from .filtered_panel import FilteredPanel
@@ -21,8 +22,9 @@ if TYPE_CHECKING:
     from .viewer import Viewer
 
 COLUMNS, ROWS = 72, 16
-_HINT = "Enter, click: open   Esc: close   type: filter   Tab: "
 UP = ".."
+#: Each unit is a thousand of the one before.
+SIZES = ("{size:.3g} B", "{size:.3g} kB", "{size:.3g} MB", "{size:.3g} GB", "{size:.3g} TB")
 
 
 class _FilePanel(FilteredPanel):
@@ -43,7 +45,8 @@ class _FilePanel(FilteredPanel):
 class FolderPanel(_FilePanel):
     """The folders and models in a folder, initially that of the shown file."""
 
-    hint = _HINT + "opened before"
+    title = "Open a model"
+    hint = "Enter, click: open   Esc: close   type: filter   Tab: opened before"
 
     def __init__(self, viewer: Viewer, opening: Opening):
         super().__init__(viewer, opening)
@@ -72,7 +75,7 @@ class FolderPanel(_FilePanel):
         path = printable(self.folder)
         path = path if len(path) <= COLUMNS else ".." + path[2 - COLUMNS :]
         reasons = [self._listing.reason] if self._listing.reason else []
-        return [f"Open a model{title}", path, *others, *reasons]
+        return [title, path, *others, *reasons]
 
     def set_filter(self, text: str) -> None:
         """Show only names that contain a text; a folder name that ends with a slash opens it."""
@@ -115,7 +118,7 @@ class RecentPanel(_FilePanel):
     """The recently opened files."""
 
     title = "Opened before"
-    hint = _HINT + "folders"
+    hint = "Enter, click: open   Esc: close   type: filter   Tab: folders"
 
     def __init__(self, viewer: Viewer, opening: Opening):
         super().__init__(viewer, opening)
@@ -140,8 +143,8 @@ class RecentPanel(_FilePanel):
 
 def _size(item: Item) -> str:
     """Return a file's size with at most four digits."""
-    size, units = float(item.size), ["B", "kB", "MB", "GB", "TB"]
+    size, units = float(item.size), [*SIZES]
     while size >= 1000 and len(units) > 1:
         size /= 1000
         del units[0]
-    return f"{size:.3g} {units[0]}"
+    return translated(units[0], size=size)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from ...base.language import translated
 from ...errors import printable
 from .list_panels import Panel
 
@@ -27,7 +28,7 @@ class FilteredPanel(Panel):
         self.chosen = 0
 
     def heads(self, left_out: int) -> list[str]:
-        return [self.title + self.more(left_out), f"filter: {self.filter}_"]
+        return [*super().heads(left_out), translated("filter: {text}_", text=self.filter)]
 
     def choices(self) -> Sequence[int]:
         """Return the numbers of the rows that can be chosen."""

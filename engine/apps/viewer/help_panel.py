@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...base.language import translated, translated_keys
 from ...stage.views.fps import LOOKS, MOVES
 from .filtered_panel import FilteredPanel
 from .keymap import GESTURES, SECTIONS, WALKING, WALKING_GESTURES, Binding
@@ -61,7 +62,7 @@ class CommandPanel(FilteredPanel):
     def heads(self, left_out: int) -> list[str]:
         if not self.section:
             return super().heads(left_out)
-        return [f"filter: {self.filter}_"] if self.filter else []
+        return [translated("filter: {text}_", text=self.filter)] if self.filter else []
 
     def rows(self) -> list[Row]:
         return [entry.row for entry in self._entries()]
@@ -87,7 +88,7 @@ class CommandPanel(FilteredPanel):
         marked = [
             ("> " if number == self.chosen else "  ") + row for number, row in enumerate(rows)
         ]
-        return [*heads, *marked[first : first + room], self.hint]
+        return [*heads, *marked[first : first + room], translated(self.hint)]
 
     def _entries(self) -> list[_Entry]:
         """Return the entries that the filter leaves, below the headings of their themes."""
@@ -95,12 +96,12 @@ class CommandPanel(FilteredPanel):
         for title, entries in self._sections():
             kept = [entry for entry in entries if self._keeps(title, entry.row)]
             if kept and not self.section:
-                found.append(_Entry(Row(title, is_title=True)))
+                found.append(_Entry(Row(translated(title), is_title=True)))
             found += kept
         return found
 
     def _keeps(self, title: str, row: Row) -> bool:
-        text = f"{title} {row.text} {row.key} {row.detail}".casefold()
+        text = f"{translated(title)} {row.text} {row.key} {row.detail}".casefold()
         return all(word in text for word in self.filter.casefold().split())
 
     def _sections(self) -> Iterator[tuple[str, list[_Entry]]]:
@@ -112,16 +113,21 @@ class CommandPanel(FilteredPanel):
             if self.section in ("", title):
                 yield title, [self._command(binding, taken) for binding in bindings]
         if not walks and not self.section:
-            yield "Mouse", [_Entry(Row(text, key=key)) for key, text in GESTURES]
+            yield "Mouse", [_moving(key, text) for key, text in GESTURES]
 
     def _command(self, binding: Binding, taken: set[str]) -> _Entry:
         """Return the entry of a command, with the keys that have no other meaning."""
         value, is_lit = binding.value(self.viewer) if binding.value is not None else ("", False)
-        keys = " ".join(key for key in binding.keys if key not in taken)
-        return _Entry(Row(binding.help, value, key=keys, is_lit=is_lit), binding)
+        keys = " ".join(translated_keys(key) for key in binding.keys if key not in taken)
+        return _Entry(Row(translated(binding.help), value, key=keys, is_lit=is_lit), binding)
 
     def _walking(self) -> list[_Entry]:
         """Return the keys of walking, as the keyboard's layout names them."""
         key_at = self.viewer.window.key_at
         rows = [(" ".join(map(key_at, positions)), text) for positions, text in WALKING]
-        return [_Entry(Row(text, key=key)) for key, text in (*rows, *WALKING_GESTURES)]
+        return [_moving(key, text) for key, text in (*rows, *WALKING_GESTURES)]
+
+
+def _moving(gesture: str, text: str) -> _Entry:
+    """Return the entry of what the mouse does, or of keys of walking."""
+    return _Entry(Row(translated(text), key=translated(gesture)))

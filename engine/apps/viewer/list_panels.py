@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...base.language import translated, translated_number
 from ...rendering.canvas import Canvas
 from ...rendering.fonts.fitting import most_kept
 from ...rendering.fonts.font import Font
@@ -86,11 +87,11 @@ class Panel:
 
     def heads(self, left_out: int) -> list[str]:
         """Return the lines above the rows; not all of them may fit."""
-        return [self.title + self.more(left_out)]
+        return [translated(self.title) + self.more(left_out)]
 
     def more(self, left_out: int) -> str:
         """Return a text about rows that do not fit."""
-        return f"  ({self._count}, wheel: more)" if left_out else ""
+        return f"  {translated('({count}, wheel: more)', count=self._count)}" if left_out else ""
 
     def draw(self, canvas, scale: float, theme: Theme) -> None:
         """Draw the rows that fit, from the first visible one."""
@@ -104,7 +105,7 @@ class Panel:
         left, top = self.place(canvas, width, height, scale)
         self._box = left, top, width, height
         bar = None if self.chosen is None else self.chosen - self._first + self._heads
-        shows = shown, columns, bar, self.hint, font, padding, theme
+        shows = shown, columns, bar, translated(self.hint), font, padding, theme
         onto = canvas.pixels[top:, left:]
         self._kept.put(onto, (width, height), shows, lambda kept: _draw_list(kept, *shows))
 
@@ -112,7 +113,7 @@ class Panel:
         """Return the lines of the panel, but for the hint, and its columns."""
         rows = self.rows()
         seen, heads, blank = self._fitting_rows(canvas, rows)
-        columns = self._columns([*heads, self.hint], seen, rows, font)
+        columns = self._columns([*heads, translated(self.hint)], seen, rows, font)
         most = canvas.width - 2 * self._margin - 2 * self._padding
         columns = columns._replace(wide=max(min(columns.wide, most), 1))
         return [Row(head, is_title=True) for head in heads] + seen + [Row("")] * blank, columns
@@ -139,7 +140,7 @@ class Panel:
     def lines(self) -> list[str]:
         """Return the list as lines of text."""
         rows = ["  ".join(filter(None, (row.text, row.key, row.detail))) for row in self.rows()]
-        return [*self.heads(0), *rows, self.hint]
+        return [*self.heads(0), *rows, translated(self.hint)]
 
     def _fitting_rows(self, canvas, rows: list[Row]) -> tuple[list[Row], list[str], int]:
         """Return the rows that fit, the lines above them, and the number of blank ones below."""
@@ -228,7 +229,9 @@ class MaterialPanel(Panel):
 
 
 def _row(entry) -> Row:
-    return Row(f"{SHOWN if entry.shown else HIDDEN} {entry.name}", f"{entry.triangles:,}")
+    return Row(
+        f"{SHOWN if entry.shown else HIDDEN} {entry.name}", translated_number(entry.triangles, ",")
+    )
 
 
 class _Widths(dict[str, int]):

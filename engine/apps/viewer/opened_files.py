@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from ...base.language import translated
 from ...errors import Engine3DError, printable
 from ...stage.views.viewpoint import Sphere
 from ..desktop.recent_files import RecentFiles
@@ -59,7 +60,10 @@ class Opening:
         viewer.playing = viewed.plays
         viewer.first_view = viewer.view_renderer.view()
         viewer.reset_view()
-        viewer.say(viewed.warnings[0] if viewed.warnings else f"opened {viewed.title}")
+        if viewed.warnings:
+            viewer.say(viewed.warnings[0])
+        else:
+            viewer.say("opened {name}", name=viewed.title)
 
     def step(self, step: int) -> None:
         """Show the next or previous model of the folder, cyclically."""
@@ -85,7 +89,7 @@ class Opening:
         viewer = self._viewer
         viewer.redraw()
         if missing := self.files.missing():
-            gone = f"{', '.join(missing)} is not there: this is what it was"
+            gone = translated("{names} is not there: this is what it was", names=", ".join(missing))
             viewer.messages.trouble = printable(gone)
             return
         try:
@@ -95,11 +99,14 @@ class Opening:
             return
         before = viewer.view_renderer.bounds
         self._show(viewed, keep_appearance=True)
-        said = viewed.warnings[0] if viewed.warnings else f"loaded {viewed.title} again"
-        if not self._in_view(before):
-            said += "; it was out of view"
+        said = translated("loaded {name} again", name=viewed.title)
+        if viewed.warnings:
+            said = viewed.warnings[0]
+        if self._in_view(before):
+            viewer.say(said)
+        else:
+            viewer.say("{event}; it was out of view", event=said)
             self._frame_again()
-        viewer.say(said)
 
     def _show(self, viewed: ViewedScene, *, keep_appearance: bool) -> None:
         self._viewer.view_renderer.show(viewed, keep_appearance=keep_appearance)
@@ -122,4 +129,4 @@ class Opening:
 
 
 def _reason(error: Exception) -> str:
-    return "out of memory" if isinstance(error, MemoryError) else str(error)
+    return translated("out of memory") if isinstance(error, MemoryError) else str(error)

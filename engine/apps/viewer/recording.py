@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...base.language import translated
 from ...errors import Engine3DError
 from ...io.output.animation_files import save_animation
 from ...io.output.frame_names import literal_name
@@ -40,19 +41,24 @@ def record(viewer: ViewerState, path: Path) -> str:
     try:
         save_animation(_pictures(viewer, path.name), literal_name(path), seconds)
     except _GivenUp:
-        return "given up"
+        return translated("given up")
     except (Engine3DError, OSError) as error:
         return str(error)
     finally:
         view_renderer.resize(size)
-    return f"saved {path.name}"
+    return translated("saved {name}", name=path.name)
 
 
 def _pictures(viewer: ViewerState, name: str) -> Iterator[np.ndarray]:
     """Yield the pictures, and show them; raise `_GivenUp` if the user cancels."""
     pictures = headless.animation(viewer.view_renderer, viewer.view, FRAMES)
     for number, picture in enumerate(pictures, 1):
-        viewer.window.title = f"{name}: {number} of {FRAMES} - Escape gives it up"
+        viewer.window.title = translated(
+            "{name}: {number} of {count} - Escape gives it up",
+            name=name,
+            number=number,
+            count=FRAMES,
+        )
         viewer.window.present(picture)
         for event in viewer.window.events():
             if isinstance(event, events.CloseRequested):

@@ -14,6 +14,7 @@ import numpy as np
 from ...base.calls import checks_types, keywords_of, refuse_unknown
 from ...base.foreign_arrays import is_foreign_array
 from ...base.image_size import check_size
+from ...base.language import speaking, usual_language
 from ...base.numbers import as_array, shown
 from ...choices import PixelFormat
 from ...errors import DisplayError, InvalidArgumentError
@@ -141,6 +142,7 @@ def _show(thing, size, format, settings: Settings, **how: Any) -> None:
 
 def _show_scene(viewed: ViewedScene, settings: Settings, size: tuple[int, int] | None) -> None:
     with (
+        speaking(usual_language()),
         ProgramWindow(size, SIZE, f"{viewed.title} - engine3d") as window,
         ViewRenderer(viewed, settings, window.size, antialiasing="msaa") as view_renderer,
     ):

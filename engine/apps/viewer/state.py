@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ...base import linalg
+from ...base.language import translated
 from ...errors import Engine3DError
 from ...model.spatial.rays import RayHit
 from ...stage.view_renderer import ViewRenderer
@@ -114,9 +115,17 @@ class ViewerState:
         """Request that what lies over and beside the frame is drawn anew, but not the frame."""
         self._stale = self._stale or "controls"
 
-    def say(self, message: str) -> None:
-        """Show a message for a time that depends on its length."""
-        self.messages.say(message)
+    def say(self, message: str, /, **values: object) -> None:
+        """Show a message for a time that depends on its length.
+
+        Parameters
+        ----------
+        message : str
+            In English, or what the library says: it is shown in the language of the window.
+        **values
+            What fields of the message become, as for `translated`.
+        """
+        self.messages.say(translated(message, **values))
         self.redraw()
 
     def forget_scene(self) -> None:
@@ -174,12 +183,12 @@ class ViewerState:
     def _begin_walking(self) -> None:
         try:
             self.walker = controller(self.view_renderer, self.view)
-            said = "flying"
+            said = translated("flying")
         except Engine3DError as error:
             self.walker = FpsController(self.view, self.view_renderer.bounds)
-            said = f"flying, as there is no ground: {error}"
+            said = translated("flying, as there is no ground: {reason}", reason=error)
         self.walker.place(self.view)
         if isinstance(self.walker, GroundController):
-            said = f"walking; {told(self.walker.grid)}"
+            said = translated("walking; {grid}", grid=told(self.walker.grid))
         keys = "".join(map(self.window.key_at, "WASD"))
-        self.say(f"{said}; {keys}, mouse or arrows to look; Tab or Esc to leave")
+        self.say("{now}; {keys}, mouse or arrows to look; Tab or Esc to leave", now=said, keys=keys)

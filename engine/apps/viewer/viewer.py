@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import time as clock
 
+from ...base.language import translated
 from ...rendering.canvas import Canvas
 from ...stage.overlays.frame_statistics import short_statistics, statistics_lines
 from ...stage.overlays.frame_times import FrameTimes
@@ -240,13 +241,13 @@ class Viewer(ViewerState):
         view_renderer = self.view_renderer
         if self.statistics == "short":
             return [short_statistics(self.frame_times, view_renderer.stats)]
-        eye = ", ".join(f"{value:.4g}" for value in self.view.position())
+        x, y, z = self.view.position()
         return statistics_lines(
             self.frame_times,
             view_renderer.size,
             view_renderer.samples,
             view_renderer.stats,
-            f"camera at {eye}",
+            translated("camera at {x:.4g}, {y:.4g}, {z:.4g}", x=x, y=y, z=z),
             view_renderer.appearance.culling,
         )
 

@@ -12,6 +12,7 @@ from collections.abc import Collection
 from typing import Any, NamedTuple
 
 from ...errors import printable
+from ..language import translated
 
 MOST = 10_000
 
@@ -87,7 +88,7 @@ def list_folder(path: str | os.PathLike[str]) -> Listing:
         with os.scandir(folder) as entries:
             for entry in entries:
                 if len(items) == MOST:
-                    reason = f"only {MOST} entries are shown"
+                    reason = translated("only {count:,} entries are shown", count=MOST)
                     break
                 items += _item(entry)
     except (OSError, ValueError) as error:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
+from ...base.language import translated
 from ...model.geometry.mesh import Mesh
 from ...model.measuring.edges import parts_of
 from ...model.measuring.surfaces import surface_of
@@ -34,7 +35,8 @@ def loose_parts(mesh: Mesh) -> list[LoosePart]:
         return named
     numbers = _pieces(mesh)
     count = int(numbers.max(initial=-1)) + 1
-    return [LoosePart(f"piece {k + 1}", numbers == k) for k in range(count)]
+    names = [translated("piece {number}", number=k + 1) for k in range(count)]
+    return [LoosePart(name, numbers == k) for k, name in enumerate(names)]
 
 
 def _named_parts(mesh: Mesh) -> list[LoosePart]:

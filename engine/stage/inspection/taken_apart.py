@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...base import linalg
 from ...base.box_corners import box_corners
+from ...base.language import translated
 from ...model.geometry.mesh import Mesh
 from ...model.measuring.cutting import MOST_INSTANCES, Plane, area_of, cut_nodes
 from ...model.scene.cameras import Camera
@@ -207,7 +208,7 @@ class TakenApart:
             if face is None:
                 self.open_cuts.append(names[outline.node])
             elif names[outline.node] not in self.uncut:
-                name = f"cut of {names[outline.node]}"
+                name = translated("cut of {name}", name=names[outline.node])
                 self._pieces.append(self._scene.add(face, name=name))
 
     def _cut_part(self, part: _Part, plane: Plane) -> None:

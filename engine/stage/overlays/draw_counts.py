@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...base.language import translated, translated_choice, translated_count, translated_number
+
 #: What `--verbose` counts at each stage of culling.
 COUNTED = ("nodes", "clusters", "triangles")
 STAGES = {
@@ -26,6 +28,14 @@ ROWS = {
     "draw calls": ("objects", "draws_unbatched", "draws"),
 }
 
+#: What tests found the nodes in view, by the culling method; that of the others is the last.
+TESTS = {
+    "none": "nothing is left out: no box was tested",
+    "frustum": "{tested}, one by one",
+    "tree": "{tested}, by the tree",
+}
+EVERY_TEST = "{tested}, by the tree; then parts of meshes, and what is hidden"
+
 
 def count_names() -> set[str]:
     """Return the names of all counters of the table."""
@@ -34,23 +44,23 @@ def count_names() -> set[str]:
 
 def count_table(stats: dict[str, Any]) -> list[str]:
     """Return the table: a header line, and a line for each kind of things."""
-    rows = [f"{'':<10}" + "".join(f"{column:>12}" for column in COLUMNS)]
+    rows = [f"{'':<10}" + "".join(f"{translated(column):>12}" for column in COLUMNS)]
     for what, names in ROWS.items():
-        rows.append(f"{what:<10}" + "".join(f"{stats[name]:>12,}" for name in names))
+        numbers = (translated_number(stats[name], ">12,") for name in names)
+        rows.append(f"{translated(what):<10}" + "".join(numbers))
     return rows
 
 
 def told_tests(stats: dict[str, Any], culling: str) -> str:
-    """Return a sentence on how many tests found the objects in view."""
-    tested = stats["boxes_tested"]
-    boxes = f"{tested:,} box{'' if tested == 1 else 'es'} tested"
-    how = {
-        "none": "nothing is left out: no box was tested",
-        "frustum": f"{boxes}, one by one",
-        "tree": f"{boxes}, by the tree",
-    }
-    text = how.get(culling, f"{how['tree']}; then parts of meshes, and what is hidden")
-    return f"culling {culling}: {text}"
+    """Return a sentence on how many tests found the nodes in view."""
+    tested = translated_count(
+        "{count:,} box tested", "{count:,} boxes tested", stats["boxes_tested"]
+    )
+    return translated(
+        "culling {method}: {effect}",
+        method=translated_choice("culling", culling),
+        effect=translated(TESTS.get(culling, EVERY_TEST), tested=tested),
+    )
 
 
 def count_line(stats: dict[str, Any]) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...base.language import translated, translated_number
 from .draw_counts import count_names, count_table, told_tests
 from .frame_times import FrameTimes
 
@@ -19,9 +20,12 @@ _LISTED = ("pixels_shaded", "materials", "lights", "shadow_maps", "threads", "ba
 def short_statistics(times: FrameTimes, stats: dict[str, Any]) -> str:
     """Return a one-line summary of the last frame's statistics."""
     drawn, total = stats["triangles_drawn"], stats["triangles"]
-    parts = [f"{times.drawing_seconds * 1000:.1f} ms to draw", f"{drawn:,} of {total:,} triangles"]
+    parts = [
+        translated("{ms:.1f} ms to draw", ms=times.drawing_seconds * 1000),
+        translated("{drawn:,} of {total:,} triangles", drawn=drawn, total=total),
+    ]
     if times.count > 1:
-        parts.insert(0, f"{1.0 / times.seconds:.0f} frames per second")
+        parts.insert(0, translated("{rate:.0f} frames per second", rate=1.0 / times.seconds))
     return ", ".join(parts)
 
 
@@ -51,34 +55,49 @@ def statistics_lines(
         The culling method.
     """
     lines = _time_lines(times)
-    lines.append(f"{size[0]}x{size[1]}" + (f", {samples} samples per pixel" * (samples > 1)))
+    lines.append(f"{size[0]}x{size[1]}")
+    if samples > 1:
+        lines[-1] += translated(", {count} samples per pixel", count=samples)
     lines += [place] * bool(place)
     if count_names() <= stats.keys():
         lines += ["", *count_table(stats), "", told_tests(stats, culling)]
     stages = [name for name in _STAGES if f"ms_{name}" in stats]
     if stages:
-        lines += ["", "last frame in the core"]
-        lines += [_entry(name, f"{stats[f'ms_{name}']:.2f} ms") for name in stages]
+        lines += ["", translated("last frame in the core")]
+        lines += [_entry(translated(name), _milliseconds(stats[f"ms_{name}"])) for name in stages]
     listed = [name for name in _LISTED if name in stats]
-    return [*lines, "", *(_entry(name.replace("_", " "), _number(stats[name])) for name in listed)]
+    return [
+        *lines,
+        "",
+        *(_entry(translated(name.replace("_", " ")), _number(stats[name])) for name in listed),
+    ]
 
 
 def _time_lines(times: FrameTimes) -> list[str]:
     """Return how many frames a second, and what one takes: the parts add up to the whole."""
     whole, drawing, core = times.seconds, times.drawing_seconds, times.core_seconds
-    rate = f"{1.0 / whole:.1f} fps" if times.count > 1 and whole > 0.0 else "one frame"
     parts = {
-        rate: whole,
-        "  core": min(core, drawing),
-        "  rest of drawing": drawing - min(core, drawing),
-        "  to the screen": whole - drawing,
+        _rate(times): whole,
+        "  " + translated("core"): min(core, drawing),
+        "  " + translated("rest of drawing"): drawing - min(core, drawing),
+        "  " + translated("to the screen"): whole - drawing,
     }
-    return [_entry(name, f"{1000 * seconds:.2f} ms") for name, seconds in parts.items()]
+    return [_entry(name, _milliseconds(1000 * seconds)) for name, seconds in parts.items()]
+
+
+def _rate(times: FrameTimes) -> str:
+    if times.count > 1 and times.seconds > 0.0:
+        return translated("{rate:.1f} fps", rate=1.0 / times.seconds)
+    return translated("one frame")
 
 
 def _entry(name: str, text: str) -> str:
     return f"{name:<22}{text:>12}"
 
 
+def _milliseconds(value: float) -> str:
+    return f"{translated_number(value, '.2f')} ms"
+
+
 def _number(value: object) -> str:
-    return f"{value:,}" if isinstance(value, int) else str(value)
+    return translated_number(value, ",") if isinstance(value, int) else str(value)

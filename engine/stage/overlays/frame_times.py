@@ -9,6 +9,8 @@ from __future__ import annotations
 import time
 from collections import deque
 
+from ...base.language import translated
+
 #: How long frames count, and how many at most.
 RECENT_SECONDS = 1.0
 RECENT_FRAMES = 120
@@ -85,6 +87,6 @@ class FrameTimes:
         if not self._frames:
             return ""
         if idle:
-            return f"idle, last frame {self._frames[-1][1] * 1000:.1f} ms"
+            return translated("idle, last frame {ms:.1f} ms", ms=self._frames[-1][1] * 1000)
         rate = 1.0 / max(self.seconds, 1e-6)
-        return f"{self.drawing_seconds * 1000:.1f} ms, {rate:.0f} fps"
+        return translated("{ms:.1f} ms, {rate:.0f} fps", ms=self.drawing_seconds * 1000, rate=rate)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
+from ...base.language import translated
 from ...model.measuring.mass import Measures
 from ...rendering.frame import Frame
 from .debug_lines import Lines, draw_lines
@@ -77,12 +78,16 @@ def measurement_text(measured: Measurement, unit: str) -> str:
     """Return what points measure, such as ``"distance 0.5 m"``."""
     kind, points = measured
     if kind == "distance":
-        return f"distance {length_text(distance_of(points), unit)}"
+        return translated("distance {length}", length=length_text(distance_of(points), unit))
     if kind == "angle":
         angle = angle_of(points)
-        return "no angle" if angle is None else f"angle {math.degrees(angle):.4g}°"
+        if angle is None:
+            return translated("no angle")
+        return translated("angle {degrees:.4g}°", degrees=math.degrees(angle))
     circle = circle_of(points)
-    return "no circle" if circle is None else f"radius {length_text(circle.radius, unit)}"
+    if circle is None:
+        return translated("no circle")
+    return translated("radius {length}", length=length_text(circle.radius, unit))
 
 
 def draw_measurement(
@@ -122,7 +127,8 @@ def _segments(circle: Circle, start: NDArray[np.float64]) -> NDArray[np.float64]
 
 def surface_text(measures: Measures, unit: str) -> list[str]:
     """Return the area and the volume of a surface as texts."""
-    area = f"area {length_text(measures.area, unit, 2)}"
+    area = translated("area {area}", area=length_text(measures.area, unit, 2))
     if measures.volume is None:
-        return [area, "no volume: it is open"]
-    return [area, f"volume {length_text(abs(measures.volume), unit, 3)}"]
+        return [area, translated("no volume: it is open")]
+    volume = length_text(abs(measures.volume), unit, 3)
+    return [area, translated("volume {volume}", volume=volume)]

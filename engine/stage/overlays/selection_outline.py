@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...base.language import translated
 from ...model.geometry.mesh import Mesh
 from ...model.scene.instances import InstancedMesh
 from ...model.spatial.rays import RayHit
@@ -32,19 +33,29 @@ def selection_lines(hit: RayHit, origin: Sequence[float] = (0.0, 0.0, 0.0)) -> l
         The scene's origin in the file's coordinates, which are shown.
     """
     thing = hit.node.object
-    lines = [hit.node.name or f"object {hit.node.id}"]
+    lines = [hit.node.name or translated("object {number}", number=hit.node.id)]
     if isinstance(thing, InstancedMesh):
-        lines.append(f"instance {hit.instance_id:,} of {len(thing.poses):,}")
+        count = len(thing.poses)
+        lines.append(
+            translated("instance {number:,} of {count:,}", number=hit.instance_id, count=count)
+        )
     mesh = thing.mesh if isinstance(thing, InstancedMesh) else thing
     if not isinstance(mesh, Mesh) or hit.face_id < 0:
         return lines
-    lines.append(f"face {hit.face_id:,} of {len(mesh.faces):,}")
+    count = len(mesh.faces)
+    lines.append(translated("face {number:,} of {count:,}", number=hit.face_id, count=count))
     if mesh.materials:
         number = 0 if mesh.material_ids is None else int(mesh.material_ids[hit.face_id])
-        lines.append(f"material {mesh.materials[number].name or number}")
-    digits = 10 if any(origin) else 4
-    place = (value + moved for value, moved in zip(hit.position, origin, strict=True))
-    return [*lines, "at " + ", ".join(f"{value:.{digits}g}" for value in place)]
+        name = mesh.materials[number].name or number
+        lines.append(translated("material {name}", name=name))
+    x, y, z = (value + moved for value, moved in zip(hit.position, origin, strict=True))
+    place = translated(
+        "at {x:.10g}, {y:.10g}, {z:.10g}" if any(origin) else "at {x:.4g}, {y:.4g}, {z:.4g}",
+        x=x,
+        y=y,
+        z=z,
+    )
+    return [*lines, place]
 
 
 def draw_outline(frame: Frame, hit: RayHit, width: int = WIDTH) -> None:

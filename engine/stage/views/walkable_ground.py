@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...base.language import translated
 from ...base.near_words import meant
 from ...errors import warn
 from ...model.navigation import NavigationGrid, Walker
@@ -118,7 +119,10 @@ def _warn_of_unknown(walkable: Collection[str], scene: Scene) -> None:
 def told(grid: NavigationGrid) -> str:
     """Return a message about a grid."""
     rows, columns = grid.shape
-    return (
-        f"navigation grid: {columns} x {rows} = {rows * columns:,} cells, "
-        f"{int(grid.walkable.sum()):,} places to stand"
+    return translated(
+        "navigation grid: {columns} x {rows} = {cells:,} cells, {places:,} places to stand",
+        columns=columns,
+        rows=rows,
+        cells=rows * columns,
+        places=int(grid.walkable.sum()),
     )

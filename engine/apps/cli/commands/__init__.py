@@ -37,7 +37,7 @@ class Command(NamedTuple):
 
 def _add_edit(command: argparse.ArgumentParser) -> None:
     from .. import config, values
-    from ..options import window_options
+    from ..options import language_options, window_options
 
     command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
     command.add_argument(
@@ -47,6 +47,7 @@ def _add_edit(command: argparse.ArgumentParser) -> None:
         help="size of the window in pixels; 1600x900 by default, and more on a fine screen",
     )
     window_options.add_ui_scale(command)
+    language_options.add(command)
     config.add_config(command)
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 
+from ....base.language import speaking
 from ....errors import Engine3DError
+from ..options.language_options import language_of
 
 
 def edit(args: argparse.Namespace) -> int:
@@ -21,5 +23,8 @@ def edit(args: argparse.Namespace) -> int:
         is_there = not isinstance(error, ModuleNotFoundError)
         lacks = f"it does not load: {error}" if is_there else "pip install 'engine3d[editor]'"
         raise Engine3DError(f"the editor needs Dear ImGui: {lacks}") from None
-    with EditorWindow(args.model or "", size=args.size, ui_scale=args.ui_scale) as editor:
+    with (
+        speaking(language_of(args)),
+        EditorWindow(args.model or "", size=args.size, ui_scale=args.ui_scale) as editor,
+    ):
         return editor.run()

@@ -7,14 +7,16 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 
+from ....base.language import ENGLISH
 from ....errors import DisplayError
 from ....io.output.animation_files import numbered_path
+from ...learn.lesson_file import LANGUAGES
 from ...learn.lesson_programs import find_programs, shared_by_lessons, steps_function, texts_of
 from ...learn.words import say
 from ..arguments import meant
+from ..options.language_options import language_of
 from ..outputs import check_folder
 from ..quietness import remark
 from ..usage import UsageError
@@ -25,7 +27,8 @@ PAGES = (".html", ".htm")
 def learn(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     programs = find_programs()
-    language = args.language or usual_language(os.environ)
+    chosen = language_of(args)
+    language = chosen if chosen in LANGUAGES else ENGLISH
     if args.list:
         for program in programs:
             write_line(texts_of(program).title(language))
@@ -50,15 +53,6 @@ def write_line(text: str) -> None:
     """Print a line; letters missing in the terminal's encoding become question marks."""
     encoding = sys.stdout.encoding or "utf-8"
     print(text.encode(encoding, "replace").decode(encoding))
-
-
-def usual_language(environment: Mapping[str, str]) -> str:
-    """Return the language of the user's locale if lessons exist in it; else English."""
-    names = (environment.get(name, "") for name in ("LC_ALL", "LC_MESSAGES", "LANG"))
-    locale = next(filter(None, names), "")
-    # LANGUAGE overrides the locale, unless that is C.
-    chosen = (environment.get("LANGUAGE") or locale) if locale else ""
-    return "fr" if chosen.split(":")[0].lower().startswith("fr") else "en"
 
 
 def choose(wanted: str, programs: list[Path]) -> int:

@@ -8,6 +8,7 @@ import os
 from pathlib import Path
 
 from ....base.files.making_folders import make_folder_of
+from ....base.language import ENGLISH, speaking, translated
 from ....errors import DisplayError
 from ....io.output.animation_files import numbered_path, save_animation
 from ....io.output.frame_names import literal_name
@@ -18,6 +19,7 @@ from ..one_by_one import draw_each
 from ..options import scene_options
 from ..options import shared_options as options
 from ..options.input_options import STANDARD_INPUT, jobs
+from ..options.language_options import language_of
 from ..options.picture_options import WINDOW
 from ..options.shared_options import Viewing
 from ..outputs import check_animation, check_picture, remark_on_size, with_progress
@@ -40,7 +42,10 @@ def run(args: argparse.Namespace) -> int:
     reason = None if args.headless or args.terminal else _missing_screen()
     if args.headless and len(found) > 1:
         return draw_each(lambda job: _run(job, found, reason), found)
-    return _run(found[0], found, reason)
+    # What is written to a file says the same in every locale.
+    has_window = not args.headless and reason is None
+    with speaking(language_of(found[0]) if has_window else ENGLISH):
+        return _run(found[0], found, reason)
 
 
 def _run(args: argparse.Namespace, found: list[argparse.Namespace], reason: str | None) -> int:
@@ -139,7 +144,7 @@ def _show(
             RecentFiles().add(*args.models)
         still = viewed.update is not None and not viewer.playing
         if viewer.walker is None:
-            viewer.say(HINT + ("; Space: play" if still else ""))
+            viewer.say("H, F1 or /: all commands; Space: play" if still else HINT)
         elif isinstance(viewer.walker, GroundController):
             report.line(told(viewer.walker.grid))
         _run_viewer(viewer, args)
@@ -154,7 +159,7 @@ def _run_viewer(viewer, args: argparse.Namespace) -> None:
     ask = ViewRenderer.why_blank if args.terminal else warn_of_nothing
     reason = ask(viewer.view_renderer)
     if reason is not None:
-        viewer.say(f"nothing shows: {reason.sentence}")
+        viewer.say("nothing shows: {reason}", reason=translated(reason.sentence))
     viewer.run(None if args.frames is None else args.frames - 1)
 
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from .. import config
-from . import window_options
-
-LANGUAGES = ("en", "fr")
+from . import language_options, window_options
 
 
 def add(command) -> None:
@@ -31,11 +29,7 @@ def add(command) -> None:
         action="store_true",
         help="show it in the terminal, also over SSH: as kitty graphics, sixels or coloured text",
     )
-    command.add_argument(
-        "--language",
-        choices=LANGUAGES,
-        help="of the lessons (default: French where the locale is, else English)",
-    )
+    language_options.add(command)
     command.add_argument(
         "-o",
         "--output",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import values
+from . import language_options
 
 
 def add(parser) -> None:
@@ -52,6 +53,7 @@ def add(parser) -> None:
     group.add_argument(
         "--watch", action="store_true", help="load the model again when its file changes"
     )
+    language_options.add(group)
     group.add_argument(
         "--headless", action="store_true", help="open no window; write an animation to a file"
     )

@@ -5,10 +5,10 @@ In: the selection, the clipboard's text. Out: commands; text for this and other 
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
-
+from ....base.language import translated
 from ....errors import Engine3DError
 from ..node_commands import DeleteNodes, counted
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 
@@ -20,8 +20,9 @@ def copy(workspace: Workspace) -> bool:
     text, told = workspace.clipboard.copy(nodes)
     imgui.set_clipboard_text(text)
     for message in told:
-        workspace.console.write("warning", f"Copy: {message}")
-    workspace.console.write("message", counted("Copy", workspace.document.selection.topmost()))
+        workspace.console.write("warning", translated("Copy: {message}", message=message))
+    copied = counted(translated("Copy"), workspace.document.selection.topmost())
+    workspace.console.write("message", copied)
     return True
 
 
@@ -29,7 +30,7 @@ def cut(workspace: Workspace) -> None:
     """Copy the selected nodes, and delete them."""
     if copy(workspace):
         command = DeleteNodes(workspace.scene, workspace.document.selection.nodes)
-        command.label = counted("Cut", command.nodes)
+        command.label = counted(translated("Cut"), command.nodes)
         workspace.do(command)
 
 
@@ -39,6 +40,6 @@ def paste(workspace: Workspace) -> None:
         with workspace.console.warnings_noted():
             command = workspace.clipboard.paste(workspace.scene, imgui.get_clipboard_text())
     except Engine3DError as error:
-        workspace.console.write("error", f"Paste: {error}")
+        workspace.console.write("error", translated("Paste: {reason}", reason=error))
         return
     workspace.do(command)

@@ -5,10 +5,10 @@ In: the document's console and prompt. Out: lines to run. Only visible rows are 
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
-
+from ....base.language import translated
 from ..console import LEVELS
 from .panel_layout import begin_panel
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _COLORS = {
@@ -90,7 +90,9 @@ class ConsolePanel:
         self._line = line
         if prompt.is_open and imgui.is_item_focused() and imgui.is_key_pressed(imgui.Key.escape):
             prompt.reset()
-            self._workspace.console.write("message", "the lines of the prompt are given up")
+            self._workspace.console.write(
+                "message", translated("the lines of the prompt are given up")
+            )
         if entered:
             self._line, self._back = "", 0
             self._focuses = True

@@ -11,8 +11,9 @@ import traceback
 from collections.abc import Callable
 
 import numpy as np
-from imgui_bundle import imgui, imguizmo
+from imgui_bundle import imguizmo
 
+from ....base.language import translated
 from ....rendering.canvas import Canvas
 from ....stage.overlays.lettering import heading_font
 from ... import events
@@ -34,6 +35,7 @@ from .resources_panel import ResourcesPanel
 from .scene_panel import ScenePanel
 from .start_chooser import StartChooser
 from .style import choose_style, scaled, set_scale
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 WINDOW_SIZE = (1600, 900)
@@ -185,8 +187,8 @@ class EditorWindow:
             self._has_told = True
             canvas = Canvas(self.window.size)
             canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
-            font, place = heading_font(self.window.scale), scaled(16.0)
-            canvas.text(place, place, RUNNING, "white", font=font, background=(150, 40, 40))
+            font, place, said = heading_font(self.window.scale), scaled(16.0), translated(RUNNING)
+            canvas.text(place, place, said, "white", font=font, background=(150, 40, 40))
             self.window.present(canvas)
         closes = any(isinstance(event, events.CloseRequested) for event in happened)
         return closes or any(map(_is_stop_key, happened))

@@ -9,13 +9,13 @@ import os
 import time
 from collections.abc import Callable
 
-from imgui_bundle import imgui
-
 from ....base.files.folder_listing import Item, Listing, list_folder
+from ....base.language import translated, translated_number
 from ...desktop.recent_files import RecentFiles
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..file_pictures import FilePictures
 from .style import scaled
+from .translated_imgui import imgui
 
 _SIZE = 62, 30  # in heights of the font
 #: Side of a thumbnail at scale 1.
@@ -124,9 +124,9 @@ class FileDialog:
         if entered:
             self._go(folder)
         imgui.set_next_item_width(imgui.get_font_size() * 12)
-        if imgui.begin_combo("##kind", self._kind):
+        if imgui.begin_combo("##kind", translated(self._kind)):
             for kind in self._kinds:
-                if imgui.selectable(kind, kind == self._kind)[0]:
+                if imgui.selectable(translated(kind), kind == self._kind)[0]:
                     self._kind = kind
             imgui.end_combo()
         imgui.same_line()
@@ -201,7 +201,7 @@ class FileDialog:
         if imgui.is_item_hovered() and not item.is_folder:
             self._hovered = item.path
         imgui.table_next_column()
-        imgui.text_unformatted("" if item.is_folder else f"{item.size:,}")
+        imgui.text_unformatted("" if item.is_folder else translated_number(item.size, ","))
         imgui.table_next_column()
         imgui.text_unformatted(time.strftime("%Y-%m-%d %H:%M", time.localtime(item.modified)))
         if not clicked:

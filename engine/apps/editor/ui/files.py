@@ -9,8 +9,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 
-from imgui_bundle import imgui
-
+from ....base.language import translated
 from ....errors import printable
 from ....io.loaders import formats
 from ....model.materials.material import Material
@@ -21,6 +20,7 @@ from ..document import SCENE_EXTENSION
 from ..gltf_export import GLTF_EXTENSIONS
 from ..recovery import Recovery
 from .file_chooser import FileDialog
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _SCENES = (SCENE_EXTENSION,)
@@ -146,7 +146,11 @@ class Files:
     # Questions
 
     def _offer(self, copy: Recovery) -> None:
-        name = "a scene without a name" if copy.document is None else printable(copy.document)
+        name = (
+            translated("a scene without a name")
+            if copy.document is None
+            else printable(copy.document)
+        )
         made = time.strftime("%Y-%m-%d %H:%M", time.localtime(copy.time))
 
         def recover():
@@ -154,7 +158,9 @@ class Files:
             forget(copy)
 
         self._ask(
-            f"An editor ended without saving {name}, as it was on {made}.",
+            translated(
+                "An editor ended without saving {name}, as it was on {time}.", name=name, time=made
+            ),
             {"Recover": recover, "Discard": lambda: forget(copy), "Later": lambda: None},
         )
 
@@ -164,7 +170,7 @@ class Files:
             act()
             return
         self._ask(
-            f"{document.title.rstrip('*')} is not saved.",
+            translated("{name} is not saved.", name=document.title.rstrip("*")),
             {"Save": lambda: self.save(act), "Discard": act, "Cancel": lambda: None},
         )
 
@@ -172,7 +178,7 @@ class Files:
         if not os.path.lexists(path):
             answer(path)
             return
-        question = f"{printable(path)} is there already."
+        question = translated("{name} is there already.", name=printable(path))
         self._ask(question, {"Overwrite": lambda: answer(path), "Cancel": lambda: None})
 
     def _save_or_export(self, path: str, then: Callable[[], object]) -> None:
@@ -182,11 +188,13 @@ class Files:
             return
         stem = os.path.splitext(path)[0]
         scene = stem + SCENE_EXTENSION
-        export = f"Export as {printable(os.path.basename(path))}"
-        save = f"Save as {printable(os.path.basename(scene))}"
+        export = translated("Export as {name}", name=printable(os.path.basename(path)))
+        save = translated("Save as {name}", name=printable(os.path.basename(scene)))
         document = self._workspace.document
         self._ask(
-            "The editor saves scenes with all that they hold as .e3d.json. glTF holds less.",
+            translated(
+                "The editor saves scenes with all that they hold as .e3d.json. glTF holds less."
+            ),
             {
                 save: lambda: self._save_to(scene, then),
                 export: lambda: self._unless_there(path, document.export),

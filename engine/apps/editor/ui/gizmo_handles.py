@@ -8,12 +8,14 @@ from __future__ import annotations
 from collections.abc import Hashable
 
 import numpy as np
-from imgui_bundle import imgui, imguizmo
+from imgui_bundle import imguizmo
 
 from ....base import linalg
+from ....base.language import translated_choice
 from ....model.scene.cameras import Camera
 from ..drags import dragged_pose
 from ..node_commands import MoveNodes, counted, in_world
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _PER_CENT = 100.0
@@ -63,7 +65,7 @@ class GizmoHandles:
         change = linalg.multiply(new, linalg.inverse(old))
         if tool == "move":  # exactly, since multiplying by an inverse adds a small rotation
             change = linalg.translation(new[:3, 3] - old[:3, 3])
-        label = counted(tool.capitalize(), nodes)
+        label = counted(translated_choice("act", tool), nodes)
         workspace.do(MoveNodes(workspace.scene, nodes, in_world(change), label), drag=self._drag)
 
     def _camera(self) -> tuple[Camera, np.ndarray]:

@@ -5,8 +5,7 @@ In: the workspace. Out: commands. Only visible rows are laid out.
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
-
+from ....base.language import translated, translated_count
 from ....model.scene.nodes import Node
 from ..hierarchy import Row
 from ..new_things.adding import GROUPS
@@ -16,6 +15,7 @@ from . import clipboard_actions
 from .materials import material_actions
 from .panel_layout import begin_panel
 from .selection_actions import add, delete, duplicate, group
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _PAYLOAD = "node"
@@ -134,7 +134,7 @@ class HierarchyPanel:
             )
         width = imgui.get_content_region_avail().x - 2 * imgui.get_font_size()
         flags = imgui.SelectableFlags_.allow_double_click
-        label = f"{node.name or f'node {node.id}'}##name"
+        label = f"{node.name or translated('node {number}', number=node.id)}###name"
         clicked, _ = imgui.selectable(label, node in selection, flags, (max(width, 1.0), 0.0))
         if faded:
             imgui.pop_style_color()
@@ -182,7 +182,7 @@ class HierarchyPanel:
         if entered or (imgui.is_item_deactivated() and not self._focuses):
             self._renamed = None
             if not imgui.is_key_pressed(imgui.Key.escape) and self._name != node.name:
-                self._workspace.do(SetValues([node], {"name": self._name}, "Rename"))
+                self._workspace.do(SetValues([node], {"name": self._name}, translated("Rename")))
         self._focuses = False
 
     def _draw_node_menu(self, node: Node) -> None:
@@ -211,7 +211,11 @@ class HierarchyPanel:
             imgui.set_drag_drop_payload_py_id(_PAYLOAD, node.id)
             selection = self._workspace.document.selection
             count = len(selection) if node in selection else 1
-            imgui.text(node.name if count == 1 else f"{count} nodes")
+            imgui.text(
+                node.name
+                if count == 1
+                else translated_count("{count:,} node", "{count:,} nodes", count)
+            )
             imgui.end_drag_drop_source()
         self._accept_drop(node)
 

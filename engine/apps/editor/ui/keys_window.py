@@ -5,11 +5,11 @@ In: the menus' entries. Out: a table; Esc or F1 closes it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from imgui_bundle import imgui
-
+from ....base.language import translated, translated_keys
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -67,6 +67,13 @@ class KeysWindow:
             self._draw_rows()
         imgui.end()
 
+    def _shown_rows(self) -> Iterator[tuple[str, str, str]]:
+        """Yield keys, what they do and their headings, as they are shown."""
+        for keys, text in MOUSE:
+            yield translated(keys), translated(text), translated("Mouse")
+        for keys, text, heading in self._rows:
+            yield translated_keys(keys), translated(text), translated(heading)
+
     def _draw_rows(self) -> None:
         flags = imgui.TableFlags_
         if not imgui.begin_table(
@@ -74,7 +81,7 @@ class KeysWindow:
         ):
             return
         last = ""
-        for keys, text, heading in [*((k, t, "Mouse") for k, t in MOUSE), *self._rows]:
+        for keys, text, heading in self._shown_rows():
             if self._search.casefold() not in f"{keys} {text} {heading}".casefold():
                 continue
             if heading != last:

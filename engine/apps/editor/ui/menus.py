@@ -10,8 +10,6 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from imgui_bundle import imgui
-
 from ....errors import printable
 from . import clipboard_actions as clipboard
 from . import selection_actions as actions
@@ -20,6 +18,7 @@ from .hierarchy_panel import HierarchyPanel, draw_add_menu
 from .materials.material_actions import add_to_selected
 from .motion import motion_actions as motion
 from .render_dialog import RenderDialog
+from .translated_imgui import imgui
 from .view.standard_views import STANDARD_VIEWS
 from .workspace import PANELS, Workspace
 

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
-from imgui_bundle import imgui
 
 from ....base import linalg
 from ....model.geometry.mesh import Mesh
@@ -21,6 +20,7 @@ from ....rendering.frame import Frame
 from ..node_shapes import MOST_EDGES, box_lines, camera_frustum, collider_lines, icon, outline
 from ..picking import without_surface
 from .style import scaled
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 Color: TypeAlias = tuple[float, float, float, float]

@@ -14,13 +14,12 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from imgui_bundle import imgui
-
 from ....base.files.atomic_write import atomic_write
 from ....base.files.json_records import read_small
 from ....errors import FileAccessError, FileFormatError, warn
 from ....stage.overlays.ui_scale import LEAST_SCALE, MOST_SCALE
 from ...desktop.user_folders import user_path
+from .translated_imgui import imgui, label
 from .workspace import PANELS, Workspace
 
 _HEAD = "[engine3d][Editor]"
@@ -143,7 +142,7 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
         "Console": below,
     }
     for name, place in places.items():
-        builder.dock_builder_dock_window(name, place)
+        builder.dock_builder_dock_window(label(name), place)
     builder.dock_builder_finish(space)
 
 

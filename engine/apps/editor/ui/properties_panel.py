@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from imgui_bundle import imgui
-
+from ....base.language import translated, translated_choice
 from ....model.geometry.mesh import Mesh
 from ....model.materials.material import Material
 from ....model.scene.cameras import Camera
@@ -27,6 +26,7 @@ from .properties.material_fields import MaterialFields
 from .properties.scene_fields import draw_scene
 from .properties.shape_fields import ShapeFields
 from .properties.transform_fields import draw_transform
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _KINDS = {Mesh: "mesh", InstancedMesh: "mesh", type(None): "empty"}
@@ -79,8 +79,9 @@ class PropertiesPanel:
         elif kinds <= {"mesh", "empty"}:
             self._shapes.draw(nodes)
         else:
+            told = ", ".join(translated_choice("holds", kind) for kind in sorted(kinds))
             self._fields.note(
-                f"Selected: {', '.join(sorted(kinds))}. Select one kind to edit more."
+                translated("Selected: {kinds}. Select one kind to edit more.", kinds=told)
             )
         if self._kinds_of(nodes) == {"mesh"}:  # it may have gone meanwhile
             self._materials.draw(nodes)
@@ -94,7 +95,9 @@ class PropertiesPanel:
         """Lay out what the nodes are called, and whether they show."""
         fields = self._fields
         if len(nodes) > 1:
-            fields.note(f"{len(nodes):,} selected nodes; — where they differ")
+            fields.note(
+                translated("{count:,} selected nodes; — where they differ", count=len(nodes))
+            )
         else:
             fields.label("Name")
             flags = imgui.InputTextFlags_.enter_returns_true

@@ -11,15 +11,16 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 import numpy as np
-from imgui_bundle import imgui
 
 from ....base import linalg
+from ....base.language import translated, translated_choice, translated_count
 from ....choices import LookName, Samples
 from ....io.output.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES
 from ....model.scene.cameras import Camera
 from ....model.scene.nodes import Node
 from ..render_job import RenderJob, Shot
 from .files import Files
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _WHAT = {"picture": "Picture", "turn": "Turn", "motion": "Motion"}
@@ -139,7 +140,14 @@ class RenderDialog:
             _, chosen.fps = imgui.input_int("Pictures a second", chosen.fps)
             chosen.fps = min(max(chosen.fps, 1), _MOST_FPS)
             count = self._count()
-            imgui.text_disabled(f"{count:,} pictures, {count / chosen.fps:.1f} s")
+            imgui.text_disabled(
+                translated_count(
+                    "{count:,} picture, {seconds:.1f} s",
+                    "{count:,} pictures, {seconds:.1f} s",
+                    count,
+                    seconds=count / chosen.fps,
+                )
+            )
         imgui.pop_item_width()
         imgui.spacing()
         if imgui.is_window_appearing():
@@ -154,13 +162,14 @@ class RenderDialog:
 
     def _draw_camera(self) -> None:
         chosen, cameras = self.choices, self._workspace.scene.data.cameras.values()
-        name = "the view" if chosen.camera is None else chosen.camera.name or "unnamed"
+        view, unnamed = translated("the view"), translated("unnamed")
+        name = view if chosen.camera is None else chosen.camera.name or unnamed
         if not imgui.begin_combo("Through", name):
             return
-        if imgui.selectable("the view", chosen.camera is None)[0]:
+        if imgui.selectable(view, chosen.camera is None)[0]:
             chosen.camera = None
         for node in cameras:
-            label = f"{node.name or 'unnamed'}##{node.id}"
+            label = f"{node.name or unnamed}##{node.id}"
             if imgui.selectable(label, node is chosen.camera)[0]:
                 chosen.camera = node
         imgui.end_combo()
@@ -231,7 +240,8 @@ class RenderDialog:
             return
         imgui.text_unformatted(os.path.basename(job.path))
         width = 20.0 * imgui.get_font_size()
-        imgui.progress_bar(job.done / job.count, (width, 0.0), f"{job.done:,} of {job.count:,}")
+        told = translated("{done:,} of {count:,}", done=job.done, count=job.count)
+        imgui.progress_bar(job.done / job.count, (width, 0.0), told)
         imgui.begin_disabled(job.is_stopped)
         if imgui.button("Stop") or imgui.is_key_pressed(imgui.Key.escape, False):
             job.stop()
@@ -244,13 +254,18 @@ class RenderDialog:
     def _tell(self, job: RenderJob) -> None:
         console = self._workspace.console
         if job.error:
-            console.write("error", f"Render: {job.error}")
+            console.write("error", translated("Render: {reason}", reason=job.error))
             return
-        what = "a picture" if job.count == 1 else f"{job.count:,} pictures"
-        console.write("action", f"Render {what} into {job.path}")
+        told = translated_count(
+            "Render a picture into {path}",
+            "Render {count:,} pictures into {path}",
+            job.count,
+            path=job.path,
+        )
+        console.write("action", told)
 
 
 def _choice(label: str, now: Any, choices: tuple) -> Any:
     """Lay out a choice; return the chosen one."""
-    names = [str(each) for each in choices]
+    names = [translated_choice("look", str(each)) for each in choices]
     return choices[imgui.combo(label, choices.index(now), names)[1]]

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import time
 
-from imgui_bundle import imgui
-
+from ....base.language import translated, translated_choice, translated_number
 from ....model.materials.material import Material
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..resource_list import Entry
@@ -17,6 +16,7 @@ from .materials import material_actions
 from .panel_layout import begin_panel
 from .shown_thumbnails import ShownThumbnails
 from .style import scaled
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 #: Side of a thumbnail at scale 1.
@@ -83,7 +83,12 @@ class ResourcesPanel:
             self._workspace.document.selection.set(users)
         if isinstance(entry.thing, Material):
             material_actions.drag(entry.thing)
-        size = f"{entry.size:,} bytes" if entry.size else ""
-        for text in (entry.kind, size, entry.path or "", f"{entry.users:,}"):
+        size = translated("{size:,} bytes", size=entry.size) if entry.size else ""
+        for text in (
+            translated_choice("resource", entry.kind),
+            size,
+            entry.path or "",
+            translated_number(entry.users, ","),
+        ):
             imgui.table_next_column()
             imgui.text_unformatted(text)

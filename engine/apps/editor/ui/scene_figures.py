@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...._native.scene_graph import ALIVE
+from ....base.language import translated, translated_count, translated_number
 from ....model.geometry.mesh import Mesh
 from ....model.motion.posed_mesh import PosedMesh
 from ....model.scene.instances import InstancedMesh
@@ -52,18 +53,31 @@ class SceneFigures:
         stats, now = frame.stats, time.perf_counter()
         while self._drawn and self._drawn[0] < now - _PERIOD:
             self._drawn.popleft()
-        count = len(self._drawn)
-        self.shows_rate = count > 1
-        rate = f"{count / _PERIOD:.0f} fps" if self.shows_rate else "at rest"
+        drawn = len(self._drawn)
+        self.shows_rate = drawn > 1
         held = objects_of(self._workspace.scene)
         beside = max(stats["instances"] - held, 0)  # the grid, and the ground of a look
-        objects = f"{stats['instances_drawn'] - beside:,} of {held:,} objects drawn"
-        draws = f"{stats['draws']:,} draw{'' if stats['draws'] == 1 else 's'}"
-        triangles = f"{stats['triangles_drawn']:,} of {stats['triangles']:,} triangles"
-        text = f"{rate}, {1e3 * self._seconds:.1f} ms, {objects}, {draws}, {triangles}"
+        parts = [
+            translated("{rate:.0f} fps", rate=drawn / _PERIOD)
+            if self.shows_rate
+            else translated("at rest"),
+            f"{translated_number(1e3 * self._seconds, '.1f')} ms",
+            translated(
+                "{drawn:,} of {count:,} objects drawn",
+                drawn=stats["instances_drawn"] - beside,
+                count=held,
+            ),
+            translated_count("{count:,} draw", "{count:,} draws", stats["draws"]),
+            translated(
+                "{drawn:,} of {total:,} triangles",
+                drawn=stats["triangles_drawn"],
+                total=stats["triangles"],
+            ),
+        ]
+        text = ", ".join(parts)
         if self._workspace.document.moves:
-            animator = self._workspace.document.animator
-            text += f", {animator.time:.2f} s, frame {self._workspace.moments}"
+            shown, count = self._workspace.document.animator.time, self._workspace.moments
+            text += translated(", {time:.2f} s, frame {count}", time=shown, count=count)
         return text
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from imgui_bundle import imgui
 
+from ....base.language import translated
 from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
 from ....stage.overlays.selection_outline import WIDTH, closed, outline_pixels
@@ -25,6 +25,7 @@ from .scene_figures import SceneFigures
 from .scene_pictures import ScenePictures
 from .scene_tools import draw_tools
 from .style import scaled
+from .translated_imgui import imgui
 from .view.camera_preview import CameraPreview
 from .view.clickable_axes import ClickableAxes
 from .workspace import Workspace
@@ -174,7 +175,8 @@ class ScenePanel:
         node = self._workspace.through.node
         if node is None:
             return
-        text = f"Through {node.name or 'a camera'}: turn the view to leave it"
+        name = node.name or translated("a camera")
+        text = translated("Through {name}: turn the view to leave it", name=name)
         middle = corner.x + (self._frame.width - imgui.calc_text_size(text).x) / 2
         color = imgui.get_color_u32(RECTANGLE)
         imgui.get_window_draw_list().add_text(

@@ -7,19 +7,23 @@ from __future__ import annotations
 
 from typing import get_args
 
-from imgui_bundle import imgui
-
+from ....base.language import translated, translated_choice, translated_keys
 from ....choices import LookName, Mode
 from .overlays import Overlays
 from .style import scaled
+from .translated_imgui import imgui
 from .view.standard_views import STANDARD_VIEWS
 from .workspace import Workspace
 
 MODES = get_args(Mode)
 LOOKS: tuple[LookName | None, ...] = (None, *get_args(LookName))
 TOOLS = {"select": "Q", "move": "W", "rotate": "E", "scale": "R"}
-#: The unit of each tool's step, and its drag speed.
-_UNITS = {"move": ("units", 0.01), "rotate": ("degrees", 0.5), "scale": ("per cent", 0.5)}
+#: The label of each tool's step with its unit, and its drag speed.
+_STEPS = {
+    "move": ("Move, units", 0.01),
+    "rotate": ("Rotate, degrees", 0.5),
+    "scale": ("Scale, per cent", 0.5),
+}
 _LEAST, _MOST = 1e-4, 1e6
 
 
@@ -27,7 +31,7 @@ def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
     """Lay the row out."""
     imgui.dummy((scaled(2.0), 0.0))
     for name, key in TOOLS.items():
-        label = f"{name.capitalize()} ({key})"
+        label = f"{translated(name.capitalize())} ({key})###{name}"
         _beside(label, boxes=1)
         if imgui.radio_button(label, workspace.tools.chosen == name):
             workspace.tools.chosen = name
@@ -64,7 +68,7 @@ def _draw_views(workspace: Workspace) -> None:
     if cameras:
         imgui.separator_text("Through a camera")
     for node in cameras:
-        name = f"{node.name or 'camera'}##{node.id}"
+        name = f"{node.name or translated('camera')}##{node.id}"
         if imgui.menu_item_simple(name, None, workspace.through.node is node):
             workspace.through.look(node, workspace.bounds)
     imgui.end_popup()
@@ -78,7 +82,7 @@ def _draw_looks(workspace: Workspace) -> None:
     width = imgui.get_font_size() * 7
     _beside("", width)
     imgui.set_next_item_width(width)
-    names = [look or "auto" for look in LOOKS]
+    names = [translated_choice("look", look or "auto") for look in LOOKS]
     _, chosen = imgui.combo("##look", LOOKS.index(workspace.display.look), names)
     workspace.display.look = LOOKS[chosen]
     imgui.set_item_tooltip("look of scenes without light; auto: plain, and studio as rendered")
@@ -89,7 +93,8 @@ def _draw_modes(workspace: Workspace) -> None:
     width = imgui.get_font_size() * 7
     _beside("", width)
     imgui.set_next_item_width(width)
-    _, chosen = imgui.combo("##mode", MODES.index(workspace.display.mode), list(MODES))
+    modes = [translated_choice("mode", mode) for mode in MODES]
+    _, chosen = imgui.combo("##mode", MODES.index(workspace.display.mode), modes)
     workspace.display.mode = MODES[chosen]
     _beside("Wireframe", boxes=1)
     _, workspace.display.wireframe = imgui.checkbox("Wireframe", workspace.display.wireframe)
@@ -98,7 +103,9 @@ def _draw_modes(workspace: Workspace) -> None:
 def _beside(label: str, width: float = 0.0, *, boxes: int = 0) -> None:
     """Place the next item on the same row if there is room."""
     style = imgui.get_style()
-    width += imgui.calc_text_size(label).x + 2.0 * style.frame_padding.x
+    width += (
+        imgui.calc_text_size(translated(label.partition("##")[0])).x + 2.0 * style.frame_padding.x
+    )
     width += boxes * (imgui.get_frame_height() + style.item_inner_spacing.x)
     imgui.same_line()
     if imgui.get_content_region_avail().x < width:
@@ -111,9 +118,8 @@ def _draw_steps(workspace: Workspace) -> None:
         imgui.open_popup("steps")
     if not imgui.begin_popup("steps"):
         return
-    for tool, (unit, speed) in _UNITS.items():
+    for tool, (label, speed) in _STEPS.items():
         imgui.set_next_item_width(imgui.get_font_size() * 6)
-        label = f"{tool.capitalize()}, {unit}"
         clamp = imgui.SliderFlags_.always_clamp
         changed, step = imgui.drag_float(
             label, workspace.tools.steps[tool], speed, _LEAST, _MOST, "%.4g", clamp
@@ -129,7 +135,7 @@ def _draw_time(workspace: Workspace) -> None:
     imgui.begin_disabled(not workspace.document.moves)
     if imgui.button("Pause" if workspace.plays else "Play"):
         workspace.play_or_pause()
-    imgui.set_item_tooltip("Space")
+    imgui.set_item_tooltip(translated_keys("Space"))
     _beside("|<")
     if imgui.button("|<"):
         workspace.rewind()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ....base.language import translated
 from ....model.scene.nodes import Node
 from ..gizmo import on_ground
 from ..new_things.adding import add_new
@@ -19,7 +20,7 @@ from .workspace import Workspace
 
 def add(workspace: Workspace, what: str, parent: Node | None = None) -> None:
     """Add a new thing in view, on the ground, at the top of the tree or below a node."""
-    label = f"Add {what.lower()}"
+    label = translated("Add {name}", name=translated(what).lower())
     workspace.do(
         AddNodes(workspace.scene, lambda scene: add_new(scene, what, workspace.view, parent), label)
     )
@@ -54,7 +55,8 @@ def put_on_ground(workspace: Workspace) -> None:
     nodes = workspace.document.selection.nodes
     if nodes:
         move = on_ground(workspace.scene, workspace.view.up)
-        workspace.do(MoveNodes(workspace.scene, nodes, move, counted("Put on the ground", nodes)))
+        label = counted(translated("Put on the ground"), nodes)
+        workspace.do(MoveNodes(workspace.scene, nodes, move, label))
 
 
 def toggle_visible(workspace: Workspace) -> None:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import os
 
-from imgui_bundle import imgui
-
+from ....base.language import translated
 from ....errors import printable
 from ..new_things.starts import STARTS
 from .files import Files
+from .translated_imgui import imgui
 from .workspace import Workspace
 
 _TITLE = "Start"
@@ -66,7 +66,10 @@ class StartChooser:
             panels.offers_start = False
         size = imgui.get_font_size() * _WIDTH, 0.0
         for start in STARTS:
-            if imgui.button(f"{start.title}: {start.hint}", size):
+            said = translated(
+                "{title}: {hint}", title=translated(start.title), hint=translated(start.hint)
+            )
+            if imgui.button(f"{said}###{start.title}", size):
                 panels.offers_start = False
                 self._workspace.start(start)
         if imgui.button("Open a file ...", size):

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ....base import linalg
+from ....base.language import translated
 from ....choices import LookName, Mode
 from ....errors import Engine3DError
 from ....io.loaders import load_mesh, load_texture
@@ -268,7 +269,7 @@ class Workspace:
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
-        label = f"Load {os.path.basename(path)}"
+        label = translated("Load {name}", name=os.path.basename(path))
         return self.do(SetValues(materials, {slot: texture}, label))
 
     def load_mesh(self, path: str, node: Node) -> bool:
@@ -279,7 +280,7 @@ class Workspace:
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
-        label = f"Load {os.path.basename(path)}"
+        label = translated("Load {name}", name=os.path.basename(path))
         return self.do(SetValues([node], {"object": mesh}, label))
 
     def save(self, path: str | None = None, *, overwrite: bool = False) -> bool:
@@ -343,7 +344,8 @@ class Workspace:
             self.document.settle()
         elif not self.document.moves:
             self.plays = False
-            self.console.write("message", "nothing moves: the menu Motion lets the selected node")
+            said = translated("nothing moves: the menu Motion lets the selected node")
+            self.console.write("message", said)
 
     def rewind(self) -> None:
         """Go to time 0."""
@@ -371,7 +373,7 @@ class Workspace:
         is_camera = selected is not None and isinstance(selected.object, Camera)
         node = selected if is_camera else self.scene.data.camera_node()
         if node is None:
-            self.console.write("message", "there is no camera: Add has one")
+            self.console.write("message", translated("there is no camera: Add has one"))
         else:
             self.through.look(node, self.bounds)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ....base.language import translated_number
 from ....rendering.canvas import Canvas
 from ....rendering.fonts.font import Font
 from ....stage.overlays.theme import Theme
@@ -73,7 +74,7 @@ def time_line(width: int, period: float, font: Font) -> TimeLine:
     """Return the parts of a strip so wide."""
     button = round(2.2 * font.size)
     clock = font.width(_clock(period, period)) + font.size
-    speed = font.width("0.25×") + font.size / 2
+    speed = font.width(_speed(0.25)) + font.size / 2
     right = [button, speed, button, clock]
     lefts = [width]
     for part in right:
@@ -83,7 +84,11 @@ def time_line(width: int, period: float, font: Font) -> TimeLine:
 
 
 def _clock(time: float, period: float) -> str:
-    return f"{time:.2f} / {period:.2f} s"
+    return f"{translated_number(time, '.2f')} / {translated_number(period, '.2f')} s"
+
+
+def _speed(speed: float) -> str:
+    return f"{translated_number(speed, 'g')}×"
 
 
 def draw_time_line(
@@ -120,8 +125,7 @@ def draw_time_line(
     canvas.text(
         line.clock + font.size // 2, y, _clock(state.time, state.period), theme.text, font=font
     )
-    speed = f"{state.speed:g}×"
-    for text, name in (("−", "slower"), (speed, "speed"), ("+", "faster")):
+    for text, name in (("−", "slower"), (_speed(state.speed), "speed"), ("+", "faster")):
         left, right = places[name]
         lit = name == "speed" and state.speed != 1.0
         x = (left + right - font.width(text)) // 2

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ....base.language import translated
 from ....rendering.canvas import Canvas
 from ....rendering.fonts.font import Font
 from ....stage.overlays.theme import Theme
@@ -29,10 +30,15 @@ _LAST = "toggle_help"
 class Button(NamedTuple):
     """A button of the bar: of the menu of a theme or, with a binding, of a command."""
 
-    text: str
+    text: str  # in English, by which it is known
     left: int
     width: int
     binding: Binding | None = None
+
+    @property
+    def shown(self) -> str:
+        """What it says."""
+        return translated(self.text)
 
 
 def bar_buttons(width: int, font: Font) -> list[Button]:
@@ -60,8 +66,8 @@ def bar_buttons(width: int, font: Font) -> list[Button]:
 
 
 def _button(text: str, left: int, font: Font, binding: Binding | None) -> Button:
-    arrow = 0 if binding is not None else round(font.size)
-    return Button(text, left, font.width(text) + arrow + 2 * round(_INSET * font.size), binding)
+    arrow, inset = 0 if binding is not None else round(font.size), round(_INSET * font.size)
+    return Button(text, left, font.width(translated(text)) + arrow + 2 * inset, binding)
 
 
 def button_at(buttons: list[Button], x: int) -> Button | None:
@@ -108,9 +114,9 @@ def draw_menu_bar(
             color = (*theme.text[:3], HOVER_ALPHA)
             canvas.rectangle(button.left, 0, button.width, canvas.height, color)
         x = button.left + inset
-        canvas.text(x, y, button.text, theme.title if is_lit else theme.text, font=font)
+        canvas.text(x, y, button.shown, theme.title if is_lit else theme.text, font=font)
         if is_lit:
-            wide, high = font.width(button.text), max(round(font.size / 8), 1)
+            wide, high = font.width(button.shown), max(round(font.size / 8), 1)
             canvas.rectangle(x, canvas.height - high, wide, high, theme.title)
         if button.binding is None:
             _draw_arrow(canvas, button, font, theme)

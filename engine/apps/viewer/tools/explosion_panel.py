@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ....base.language import translated, translated_count
 from ..list_panels import Row
 from .slider_panel import SliderPanel
 
@@ -32,8 +33,11 @@ class ExplosionPanel(SliderPanel):
     def rows(self) -> list[Row]:
         inspector = self.viewer.inspector
         return [
-            Row("together again"),
-            Row(f"{inspector.parts:,} parts", f"moved by {inspector.amount:.2f}"),
+            Row(translated("together again")),
+            Row(
+                translated_count("{count:,} part", "{count:,} parts", inspector.parts),
+                translated("moved by {amount:.2f}", amount=inspector.amount),
+            ),
             Row(""),
         ]
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....base.language import translated
 from ....model.measuring.cutting import Plane
 from ....stage.inspection.taken_apart import TakenApart
 
@@ -68,10 +69,10 @@ class Inspector:
         if self._apart is None or not self.is_cut:
             return ""
         if self._apart.uncut:
-            return f"too many instances: {', '.join(self._apart.uncut)}"
+            return translated("too many instances: {names}", names=", ".join(self._apart.uncut))
         if self._apart.open_cuts:
-            return f"open: {', '.join(self._apart.open_cuts)}"
-        return "all cuts are closed"
+            return translated("open: {names}", names=", ".join(self._apart.open_cuts))
+        return translated("all cuts are closed")
 
     def arrange(self) -> None:
         """Show the model as it is chosen; what grows or shrinks keeps its share of the picture."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....base.language import translated
 from ....measuring import measure
 from ....model.scene.scene import Scene
 from ....model.scene.shown import placing_pose, shown_object
@@ -51,12 +52,12 @@ class MeasuringPanel(Panel):
 
     def rows(self) -> list[Row]:
         rows = [
-            Row(f"{SHOWN if kind == self._kind else HIDDEN} {words}")
+            Row(f"{SHOWN if kind == self._kind else HIDDEN} {translated(words)}")
             for kind, words in _WORDS.items()
         ]
         unit = self.viewer.view_renderer.viewed.unit
         told = [measurement_text(measured, unit) for measured in self._done]
-        return [*rows, Row(_CLEAR), *map(Row, self._surface), *map(Row, told)]
+        return [*rows, Row(translated(_CLEAR)), *map(Row, self._surface), *map(Row, told)]
 
     def press(self, number: int, alone: bool) -> None:
         if number < len(_WORDS):
@@ -91,13 +92,13 @@ class MeasuringPanel(Panel):
             unit = viewer.view_renderer.viewed.unit
             viewer.say(measurement_text(self._done[-1], unit))
         else:
-            viewer.say(f"{found.kind}; {left} more")
+            viewer.say("{kind}; {count} more", kind=translated(found.kind), count=left)
         self._mark()
 
     def _measure_part(self, hit: RayHit) -> None:
         alone = Scene()
         alone.add(shown_object(hit.node), pose=placing_pose(hit.node))
-        name = hit.node.name or f"object {hit.node.id}"
+        name = hit.node.name or translated("object {number}", number=hit.node.id)
         unit = self.viewer.view_renderer.viewed.unit
         self._surface = [name, *surface_text(measure(alone), unit)]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ....base.language import translated
 from ....stage.overlays.lengths import length_text
 from ..list_panels import HIDDEN, SHOWN, Row
 from .slider_panel import SliderPanel
@@ -28,12 +29,13 @@ class SectionPanel(SliderPanel):
 
     def rows(self) -> list[Row]:
         cut, unit = self.viewer.inspector, self.viewer.view_renderer.viewed.unit
-        axis, side = _AXES[cut.axis], "greater" if cut.from_above else "smaller"
+        axis = _AXES[cut.axis]
+        side = translated("greater {axis}" if cut.from_above else "smaller {axis}", axis=axis)
         return [
-            Row(f"{SHOWN if cut.is_cut else HIDDEN} cut the model"),
-            Row("across the axis", axis),
-            Row("cut off", f"{side} {axis}"),
-            Row("place", f"{axis} = {length_text(cut.place, unit)}"),
+            Row(f"{SHOWN if cut.is_cut else HIDDEN} {translated('cut the model')}"),
+            Row(translated("across the axis"), axis),
+            Row(translated("cut off"), side),
+            Row(translated("place"), f"{axis} = {length_text(cut.place, unit)}"),
             Row(""),
             Row(cut.state_of_cuts()),
         ]

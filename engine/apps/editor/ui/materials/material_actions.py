@@ -5,8 +5,7 @@ In: the workspace. Out: commands.
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
-
+from .....base.language import translated, translated_choice
 from .....errors import InvalidArgumentError
 from .....model.materials.material import Material
 from .....model.scene.nodes import Node
@@ -14,6 +13,7 @@ from ...history import Command
 from ...material_commands import DiscardMaterial, Dress, KeepMaterial, mesh_of, new_material
 from ...picking import Pick
 from ...value_commands import SetValues
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 
 #: What a dragged material is called.
@@ -24,7 +24,7 @@ _PHYSICAL, _SIMPLE = {"metallic": 0.0, "roughness": 0.5}, {"metallic": None, "ro
 def add(workspace: Workspace, like: Material | None = None) -> Material:
     """Make a material, or a copy of one, and list it; return it."""
     material = new_material(workspace.resources, like)
-    what = "Add" if like is None else "Duplicate as"
+    what = translated("Add" if like is None else "Duplicate as")
     workspace.do(KeepMaterial(workspace.resources, material, f"{what} {material.name!r}"))
     return material
 
@@ -49,22 +49,24 @@ def discard(workspace: Workspace, material: Material) -> None:
 def rename(workspace: Workspace, material: Material, name: str) -> None:
     """Give a material another name."""
     if name != material.name:
-        workspace.do(SetValues([material], {"name": name}, f"Rename to {name!r}"))
+        label = translated("Rename to {name}", name=repr(name))
+        workspace.do(SetValues([material], {"name": name}, label))
 
 
 def set_physical(workspace: Workspace, material: Material, is_physical: bool) -> None:
     """Make a material physical, or simple."""
     if is_physical != material.is_physical:
         values = _PHYSICAL if is_physical else _SIMPLE
-        kind = "physical" if is_physical else "simple"
-        workspace.do(SetValues([material], values, f"Make {material.name!r} {kind}"))
+        kind = translated_choice("surface", "physical" if is_physical else "simple")
+        label = translated("Make {name} {kind}", name=repr(material.name), kind=kind)
+        workspace.do(SetValues([material], values, label))
 
 
 def drag(material: Material) -> None:
     """Let the mouse drag a material from the last item."""
     if imgui.begin_drag_drop_source():
         imgui.set_drag_drop_payload_py_id(PAYLOAD, id(material))
-        imgui.text(material.name or "unnamed")
+        imgui.text(material.name or translated("unnamed"))
         imgui.end_drag_drop_source()
 
 

@@ -9,14 +9,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from imgui_bundle import imgui
-
+from .....base.language import translated_count
 from .....model.materials.material import Material
 from ....imgui_painter.imgui_painter import ImguiPainter
 from ...resource_list import Entry
 from ..panel_layout import begin_panel
 from ..shown_thumbnails import ShownThumbnails
 from ..style import scaled
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import material_actions as actions
 
@@ -124,7 +124,7 @@ class MaterialsPanel:
         if imgui.selectable("##chosen", chosen, 0, (side, height))[0]:
             self._chosen = material
         actions.drag(material)
-        users = f"{entry.users:,} user{'' if entry.users == 1 else 's'}"
+        users = translated_count("{count:,} user", "{count:,} users", entry.users)
         imgui.set_item_tooltip(f"{entry.name}\n{users}")
         lines = imgui.get_window_draw_list()
         number, waits = self._thumbnails.number(material, self._deadline)
@@ -153,7 +153,8 @@ class MaterialsPanel:
             imgui.same_line()
         users = workspace.resources.users(material)
         imgui.begin_disabled(not users)
-        if imgui.small_button(f"Select {len(users):,} user{'' if len(users) == 1 else 's'}"):
+        select = translated_count("Select {count:,} user", "Select {count:,} users", len(users))
+        if imgui.small_button(f"{select}###users"):
             workspace.document.selection.set(users)
         imgui.end_disabled()
         self._draw_values(material)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 
+from .....base.language import translated
 from .....model.motion.node_motion import NodeMotion
 from .....model.motion.orbits import Orbit
 from .....model.motion.paths import Path
@@ -25,6 +26,7 @@ from ...motion_commands import (
     without_key,
 )
 from ...motion_copies import motions_in
+from ...node_commands import named
 from ..workspace import Workspace
 
 #: What is called what in panels.
@@ -119,8 +121,8 @@ def set_key(workspace: Workspace) -> None:
             held = added(with_key(node, _track_in(held, node), time))(held)
         return held
 
-    what = repr(nodes[-1].name) if len(nodes) == 1 else f"{len(nodes)} nodes"
-    label = f"Set a key of {what} at {time:.2f} s"
+    things = named(nodes)
+    label = translated("Set a key of {things} at {time:.2f} s", things=things, time=time)
     document = workspace.document
     workspace.do(SetMotions(document.animator, workspace.scene, change, label, nodes))
 

@@ -9,8 +9,8 @@ from collections.abc import Hashable, Sequence
 from typing import Any
 
 import numpy as np
-from imgui_bundle import imgui
 
+from .....base.language import translated, translated_choice, translated_count
 from .....choices import PathEnd
 from .....errors import InvalidArgumentError
 from .....model.motion.node_motion import NodeMotion
@@ -18,8 +18,9 @@ from .....model.motion.orbits import Orbit
 from .....model.motion.paths import ENDS, FORWARDS, Path
 from .....model.scene.animation import Spin, Track
 from .....model.scene.nodes import Node
-from ...motion_commands import with_repeat
+from ...motion_commands import NAMES, with_repeat
 from ...motion_copies import motions_in
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import motion_actions as actions
 
@@ -75,7 +76,8 @@ class MotionFields:
             self._draw_path(motion)
         elif isinstance(motion, Track):
             self._draw_keys(motion)
-        if imgui.small_button(f"Remove the {actions.TITLES[type(motion)].lower()}"):
+        kind = translated_choice("motion", NAMES[type(motion)])
+        if imgui.small_button(translated("Remove the {motion}", motion=kind)):
             actions.remove(self._workspace, motion)
 
     # The kinds
@@ -114,16 +116,16 @@ class MotionFields:
     def _draw_about(self, orbit: Orbit, change) -> None:
         """Lay out the choice of what is circled; a node of the tree can be dropped on it."""
         about, node = orbit.about, orbit.node
-        name = "the origin of the parent"
+        origin = name = translated("the origin of the parent")
         if orbit.is_about_node:
-            name = "what is gone" if about is None else about.name or f"node {about.id}"
+            name = translated("what is gone") if about is None else _name(about)
         if imgui.begin_combo("About", name):
             imgui.set_next_item_width(-1.0)
             _, self._search = imgui.input_text_with_hint("##search", "Search", self._search)
-            if imgui.selectable("the origin of the parent", not orbit.is_about_node)[0]:
+            if imgui.selectable(origin, not orbit.is_about_node)[0]:
                 change(about=None)
             for each in self._found(node):
-                label = f"{each.name or f'node {each.id}'}##{each.id}"
+                label = f"{_name(each)}##{each.id}"
                 if imgui.selectable(label, each is about)[0] and each is not about:
                     change(about=each)
             imgui.end_combo()
@@ -155,15 +157,16 @@ class MotionFields:
         phase = self._phase(path.phase)
         if phase is not None:
             change(phase=phase)
-        if imgui.begin_combo("At the end it", _ENDS[path.end]):
+        if imgui.begin_combo("At the end it", translated(_ENDS[path.end])):
             for end, says in _ENDS.items():
-                if imgui.selectable(says, end == path.end)[0] and end != path.end:
+                if imgui.selectable(translated(says), end == path.end)[0] and end != path.end:
                     change(end=end)
             imgui.end_combo()
-        if imgui.begin_combo("Faces ahead", path.forward or "nothing"):
+        nothing = translated("nothing")
+        if imgui.begin_combo("Faces ahead", path.forward or nothing):
             for forward in (None, *FORWARDS):
                 is_now = forward == path.forward
-                if imgui.selectable(forward or "nothing", is_now)[0] and not is_now:
+                if imgui.selectable(forward or nothing, is_now)[0] and not is_now:
                     change(forward=forward)
             imgui.end_combo()
         changed, smooth = imgui.checkbox("Round", path.smooth)
@@ -197,7 +200,14 @@ class MotionFields:
 
     def _draw_keys(self, track: Track) -> None:
         count, last = len(track.times), float(track.times[-1])
-        imgui.text_disabled(f"{count} key{'' if count == 1 else 's'}, the last at {last:.2f} s")
+        imgui.text_disabled(
+            translated_count(
+                "{count:,} key, the last at {time:.2f} s",
+                "{count:,} keys, the last at {time:.2f} s",
+                count,
+                time=last,
+            )
+        )
         changed, repeat = imgui.checkbox("Repeat", track.repeat)
         if changed:
             self._put(lambda: with_repeat(track, repeat))
@@ -212,7 +222,7 @@ class MotionFields:
         try:
             motion = make()
         except InvalidArgumentError as error:
-            self._workspace.console.write("error", f"Motion: {error}")
+            self._workspace.console.write("error", translated("Motion: {reason}", reason=error))
             return
         actions.put(self._workspace, motion, drag=self._drag)
 
@@ -255,3 +265,8 @@ class MotionFields:
         changed, new = imgui.drag_float3("Axis", list(map(float, axis)), 0.01)
         self._follow_drag()
         return chosen or (new if changed and any(new) else None)
+
+
+def _name(node: Node) -> str:
+    """Return how a node is called."""
+    return node.name or translated("node {number}", number=node.id)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from imgui_bundle import imgui
 
 from .....base import linalg
 from .....model.motion.node_motion import NodeMotion
@@ -18,6 +17,7 @@ from .....model.scene.animation import Track
 from .....model.scene.nodes import Node
 from .....rendering.frame import Frame
 from ...motion_copies import motions_in
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 
 _WAY = (0.9, 0.55, 1.0, 0.8)

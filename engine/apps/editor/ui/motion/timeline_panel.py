@@ -10,14 +10,14 @@ import math
 from collections.abc import Hashable
 from typing import NamedTuple
 
-from imgui_bundle import imgui
-
+from .....base.language import translated, translated_choice, translated_keys, translated_number
 from .....model.motion.node_motion import NodeMotion
 from .....model.scene.animation import Motions, Track
 from .....model.scene.nodes import Node
-from ...motion_commands import with_key_at
+from ...motion_commands import NAMES, with_key_at
 from ...motion_copies import motions_in
 from ..panel_layout import begin_panel
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import motion_actions as actions
 
@@ -87,7 +87,7 @@ class TimelinePanel:
         imgui.same_line()
         if imgui.button("Pause###play" if workspace.plays else "Play###play"):
             workspace.play_or_pause()
-        imgui.set_item_tooltip("Space")
+        imgui.set_item_tooltip(translated_keys("Space"))
         imgui.end_disabled()
         imgui.same_line()
         imgui.set_next_item_width(5.5 * imgui.get_font_size())
@@ -175,14 +175,14 @@ class TimelinePanel:
         for count in range(int(span.length / step + 1e-6) + 1):
             x = span.place(count * step)
             lines.add_line((x, top + 0.6 * height), (x, top + height), color)
-            lines.add_text((x + 2.0, top), text, f"{count * step:g}")
+            lines.add_text((x + 2.0, top), text, translated_number(count * step, "g"))
         imgui.set_cursor_screen_pos((span.left - _NAMES * imgui.get_font_size(), top + height))
 
     def _draw_row(self, span: _Span, node: Node, motions: list[NodeMotion]) -> None:
         selection = self._workspace.document.selection
         imgui.push_id(node.id)
         place, height = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
-        name = f"{node.name or f'node {node.id}'}##name"
+        name = f"{node.name or translated('node {number}', number=node.id)}##name"
         size = ((_NAMES - 1.0) * imgui.get_font_size(), height)
         imgui.push_style_var(imgui.StyleVar_.selectable_text_align, (0.0, 0.5))
         chosen = imgui.selectable(name, node in selection, 0, size)[0]
@@ -201,7 +201,7 @@ class TimelinePanel:
         if not tracks and imgui.is_item_active():
             actions.seek(self._workspace, span.time(imgui.get_io().mouse_pos.x))
         if others:
-            titles = ", ".join(actions.TITLES[type(motion)].lower() for motion in others)
+            titles = ", ".join(translated_choice("motion", NAMES[type(each)]) for each in others)
             _draw_bar(span, place.y, height, "" if tracks else titles)
         for track in tracks:
             _draw_track(span, middle, track, self._shown_time(span.length))

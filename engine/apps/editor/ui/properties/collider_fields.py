@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .....base.language import translated, translated_choice
 from .....model.geometry.mesh import Mesh
 from .....model.scene.nodes import Node
 from .....model.spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
@@ -31,11 +32,12 @@ def draw_colliders(fields: Fields, nodes: Sequence[Node]) -> None:
     is_mesh = all(isinstance(node.object, Mesh) for node in nodes)
     kinds = COLLIDERS if is_mesh else ("none", "sphere")  # others need a mesh of the node's own
     now = name_of(_kind(node.collider) for node in nodes)
-    chosen = fields.choice("Kind", now, [(name, name) for name in kinds])
+    chosen = fields.choice("Kind", now, [(name, name) for name in kinds], "collider")
     if chosen is not None and chosen != now:
         make = COLLIDERS[chosen]
         each = [(node, {"collider": make(mesh_of(node.object))}) for node in nodes]
-        fields.set_each(each, f"Set the collider to {chosen}")
+        kind = translated_choice("collider", chosen)
+        fields.set_each(each, translated("Set the collider to {kind}", kind=kind))
     if now == "sphere" and len(nodes) <= MOST_COMPARED:
         _draw_radius(fields, nodes)
 

@@ -11,12 +11,12 @@ import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
-from imgui_bundle import imgui
-
 from .....base.held_values import same
+from .....base.language import translated, translated_choice
 from .....model.materials.colors import split_alpha
 from .....model.materials.display_colors import display_color
 from ...value_commands import SetEach, SetValues
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 
 Option = TypeVar("Option")
@@ -49,15 +49,15 @@ class Fields:
 
     def set(self, things: Iterable[Any], values: Mapping[str, Any], label: str = "") -> None:
         """Assign the same values to all things, as a step of its own."""
-        self._workspace.do(SetValues(things, values, label))
+        self._workspace.do(SetValues(things, values, translated(label)))
 
     def set_each(self, each: Iterable[tuple[Any, Mapping[str, Any]]], label: str = "") -> None:
         """Assign values to things, as a step of its own."""
-        self._workspace.do(SetEach(each, label))
+        self._workspace.do(SetEach(each, translated(label)))
 
     def drag(self, each: Iterable[tuple[Any, Mapping[str, Any]]], label: str = "") -> None:
         """Assign values to things, as part of the drag that goes on."""
-        self._workspace.do(SetEach(each, label), drag=self._drag)
+        self._workspace.do(SetEach(each, translated(label)), drag=self._drag)
 
     def follow_drag(self) -> None:
         """Note that the mouse grabbed the last item."""
@@ -87,6 +87,7 @@ class Fields:
         room : float, optional
             Pixels that the item takes; by default a share of the panel's width.
         """
+        text = translated(text)
         start, whole = imgui.get_cursor_pos_x(), imgui.get_content_region_avail().x
         room = whole * SHARE if room is None else room
         imgui.align_text_to_frame_padding()
@@ -114,7 +115,8 @@ class Fields:
         """Lay out a button, where asked beside the last item; return whether it was pressed."""
         if beside:
             imgui.same_line()
-            width = imgui.calc_text_size(label).x + 2.0 * imgui.get_style().frame_padding.x
+            width = imgui.calc_text_size(translated(label)).x
+            width += 2.0 * imgui.get_style().frame_padding.x
             if width > imgui.get_content_region_avail().x:
                 imgui.new_line()
         return imgui.button(label)
@@ -185,7 +187,7 @@ class Fields:
         """Lay out an attribute that is a number; ``low`` and ``high`` are as shown."""
         now = getattr(things[-1], name)
         if now is None or not math.isfinite(now):
-            self.value(label, "none" if now is None else f"{now:g}")
+            self.value(label, translated("none") if now is None else f"{now:g}")
             return
         rows = _rows(things, lambda thing: [getattr(thing, name)])
         changed = self.numbers(label, rows, speed, factor, low, high)
@@ -213,7 +215,7 @@ class Fields:
     def color(self, things: Sequence[Any], name: str, label: str) -> None:
         """Lay out an attribute that is a colour; the alpha of each thing stays."""
         now, differs = self._held(things, name)
-        new = self.new_color(label, now, f"{label} {DIFFERS}" if differs else label)
+        new = self.new_color(label, now, f"{translated(label)} {DIFFERS}" if differs else label)
         if new is not None:
             self.drag(
                 (thing, {name: _with_alpha_of(getattr(thing, name), new)}) for thing in things
@@ -247,7 +249,11 @@ class Fields:
         return changed, new
 
     def choice(
-        self, label: str, now: str, options: Iterable[tuple[str, Option | None]]
+        self,
+        label: str,
+        now: str,
+        options: Iterable[tuple[str, Option | None]],
+        context: str = "",
     ) -> Option | None:
         """Lay out a choice; return the chosen option, or None.
 
@@ -257,14 +263,20 @@ class Fields:
             ``now`` is the name that is shown, and marked among the options.
         options : iterable of (str, object)
             None in place of an object makes a heading.
+        context : str, optional
+            Of the names in the catalogue of the language; without one they are shown as they are.
         """
+
+        def told(name: str) -> str:
+            return translated_choice(context, name) if context else name
+
         self.label(label)
         chosen = None
-        if imgui.begin_combo(f"##{label}", now):
+        if imgui.begin_combo(f"##{label}", told(now)):
             for number, (name, option) in enumerate(options):
                 if option is None:
                     imgui.separator_text(name)
-                elif imgui.selectable(f"{name}##{number}", name == now)[0]:
+                elif imgui.selectable(f"{told(name)}##{number}", name == now)[0]:
                     chosen = option
             imgui.end_combo()
         return chosen

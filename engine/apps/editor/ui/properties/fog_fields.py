@@ -12,8 +12,9 @@ from .....model.scene.scene import Scene
 from .....stage.chosen_surroundings import fog_color
 from .fields import Fields
 
-_KINDS = {type(None): "none", Fog: "linear", ExponentialFog: "exponential"}
+KINDS = {type(None): "none", Fog: "linear", ExponentialFog: "exponential"}
 _LEAST = 1e-4  # between near and far
+_LABELS = {"near": "Near", "far": "Far", "density": "Density"}
 
 
 def draw_fog(fields: Fields, scene: Scene, radius: float) -> None:
@@ -27,7 +28,8 @@ def draw_fog(fields: Fields, scene: Scene, radius: float) -> None:
         Of what the scene shows: a new fog hides what lies so many times as far away.
     """
     now = scene.fog
-    chosen = fields.choice("Kind", _KINDS[type(now)], [(name, k) for k, name in _KINDS.items()])
+    options = [(name, kind) for kind, name in KINDS.items()]
+    chosen = fields.choice("Kind", KINDS[type(now)], options, "fog")
     if chosen is not None and not isinstance(now, chosen):
         fields.set([scene], {"fog": _new_fog(chosen, scene, radius)})
     if now is None:
@@ -37,7 +39,7 @@ def draw_fog(fields: Fields, scene: Scene, radius: float) -> None:
         fields.drag([(scene, {"fog": replace(now, color=color)})])
     for name, value in _numbers_of(now).items():
         speed = max(abs(value) * 0.01, 1e-5)
-        changed = fields.numbers(name.capitalize(), [[value]], speed, low=0.0)
+        changed = fields.numbers(_LABELS[name], [[value]], speed, low=0.0)
         if changed is not None:
             fields.drag([(scene, {"fog": _with(now, name, changed[0])})])
 

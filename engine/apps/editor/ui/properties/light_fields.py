@@ -6,11 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import get_args
 
-from imgui_bundle import imgui
-
 from .....choices import Falloff, LightShadow
 from .....model.scene.lights import DirectionalLight, Light
 from ...new_things.adding import AREA_SIZES
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from .fields import Fields, name_of
 
@@ -58,7 +57,7 @@ def _draw_choice(fields: Fields, lights: Sequence[Light], name: str) -> None:
     options = get_args(kind)
     if name == "falloff" and not all(math.isfinite(light.range) for light in lights):
         options = tuple(option for option in options if option != "window")  # needs a range
-    chosen = fields.choice(label, now, [(option, option) for option in options])
+    chosen = fields.choice(label, now, [(option, option) for option in options], name)
     if chosen is not None and chosen != now:
         fields.set(lights, {name: chosen})
 

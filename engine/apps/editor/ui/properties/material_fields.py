@@ -6,15 +6,16 @@ import functools
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from imgui_bundle import imgui
-
+from .....base.language import translated, translated_count
 from .....model.geometry.mesh import Mesh
 from .....model.geometry.twins import twin_of
 from .....model.materials.material import PARAMETERS, Material, copy_of, textures_of
 from .....model.materials.parameters import FLAG, Parameter, TextureSlot
+from .....model.materials.textures import Texture
 from .....model.scene.instances import InstancedMesh
 from .....model.scene.nodes import Node
 from ..files import Files
+from ..translated_imgui import imgui
 from ..workspace import Workspace
 from .fields import DIFFERS, Fields, name_of
 from .shape_fields import mesh_of
@@ -49,7 +50,9 @@ class MaterialFields:
         for number in range(count):
             materials = list(dict.fromkeys(mesh.materials[number] for mesh in meshes))
             name = name_of(material.name for material in materials)
-            title = f"Material {number + 1}" if count > 1 else "Material"
+            title = translated("Material {number}", number=number + 1)
+            if count == 1:
+                title = translated("Material")
             title += f": {name}" if name else ""
             if self._fields.folder(f"{title}###material {number}"):
                 imgui.push_id(number)
@@ -65,7 +68,7 @@ class MaterialFields:
         materials: Sequence[Material],
     ) -> None:
         """Lay out which material is used, and by how many others."""
-        now = name_of(material.name or "unnamed" for material in materials)
+        now = name_of(material.name or translated("unnamed") for material in materials)
         entries = self._workspace.resources.entries()
         options = ((entry.name, entry.thing) for entry in entries if entry.kind == "material")
         chosen = self._fields.choice("Use", now, options)
@@ -76,7 +79,13 @@ class MaterialFields:
             self._fields.set_each(each, "Use a material")
         others = sum(entry.users for entry in entries if entry.thing in materials) - len(nodes)
         if others > 0:
-            self._fields.note(f"Also used by {others:,} other object{'s' * (others > 1)}.")
+            self._fields.note(
+                translated_count(
+                    "Also used by {count:,} other object.",
+                    "Also used by {count:,} other objects.",
+                    others,
+                )
+            )
             if self._fields.button("Make a copy of its own"):
                 self._make_own(nodes)
 
@@ -127,7 +136,7 @@ class MaterialFields:
 
     def _draw_slot(self, materials: Sequence[Material], slot: str, label: str) -> None:
         held = [textures_of(material).get(slot) for material in materials]
-        now = name_of("none" if each is None else each.name or "unnamed" for each in held)
+        now = name_of(_name(each) for each in held)
         imgui.push_id(slot)
         chosen = self._fields.choice(label, now, self._textures())
         if chosen is not None and any(chosen[0] is not each for each in held):
@@ -141,10 +150,15 @@ class MaterialFields:
 
     def _textures(self) -> Iterator[tuple[str, tuple[Any]]]:
         """Yield the textures to choose from, each in a tuple, and none."""
-        yield "none", (None,)
+        yield _name(None), (None,)
         for entry in self._workspace.resources.entries():
             if entry.kind == "texture":
                 yield entry.name, (entry.thing,)
+
+
+def _name(texture: Texture | None) -> str:
+    """Return how a texture is called."""
+    return translated("none") if texture is None else texture.name or translated("unnamed")
 
 
 def _replaced(materials: Sequence[Material], number: int, chosen: Material) -> list[Material]:

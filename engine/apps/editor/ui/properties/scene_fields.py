@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from .....base.language import translated, translated_count
 from .....model.environments.environment import BUILT_IN, named_environment
 from .....model.scene.gradients import Gradient
 from .....model.scene.scene import Scene
@@ -17,7 +18,13 @@ def draw_scene(workspace: Workspace, fields: Fields) -> None:
     """Lay out the scene."""
     scene = workspace.scene
     count = len(scene.nodes)
-    fields.note(f"{count:,} node{'' if count == 1 else 's'}; select one to edit it")
+    fields.note(
+        translated_count(
+            "{count:,} node; select one to edit it",
+            "{count:,} nodes; select one to edit it",
+            count,
+        )
+    )
     if fields.folder("Background and light"):
         _draw_background(fields, scene)
         fields.color([scene], "ambient", "Ambient light")
@@ -33,8 +40,8 @@ def _draw_background(fields: Fields, scene: Scene) -> None:
     if isinstance(now, tuple):
         fields.color([scene], "background", "Background")
     else:
-        kind = "a gradient" if isinstance(now, Gradient) else "the environment"
-        fields.value("Background", "none" if now is None else kind)
+        kind = translated("a gradient" if isinstance(now, Gradient) else "the environment")
+        fields.value("Background", translated("none") if now is None else kind)
         if fields.button("Make it one colour"):
             fields.set([scene], {"background": (60, 64, 72)}, "Set the background")
 
@@ -42,8 +49,9 @@ def _draw_background(fields: Fields, scene: Scene) -> None:
 def _draw_environment(fields: Fields, scene: Scene) -> None:
     """Lay out the environment: a built-in one, or from a file."""
     now = scene.environment
-    name = "none" if now is None else now.built_in or now.name or "from a file"
-    chosen = fields.choice("Lit by", name, [(each, each) for each in ("none", *BUILT_IN)])
+    name = "none" if now is None else now.built_in or now.name or translated("from a file")
+    options = [(each, each) for each in ("none", *BUILT_IN)]
+    chosen = fields.choice("Lit by", name, options, "environment")
     if chosen is not None and chosen != name:
         environment = None if chosen == "none" else named_environment(chosen)
         fields.set([scene], {"environment": environment})

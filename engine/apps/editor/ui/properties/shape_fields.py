@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from .....base.language import translated, translated_number
 from .....errors import InvalidArgumentError
 from .....model.geometry.mesh import Mesh
 from .....model.scene.instances import InstancedMesh
@@ -59,7 +60,7 @@ class ShapeFields:
         mesh, label = chosen, ""
         if isinstance(chosen, str):
             mesh = new_primitive(self._workspace.scene, chosen)
-            label = f"Make {chosen.lower()}"
+            label = translated("Make {name}", name=translated(chosen).lower())
         if mesh is not None and any(each is not mesh for each in held):
             self._fields.set(nodes, {"object": mesh}, label)
         is_one = len(nodes) == 1
@@ -73,7 +74,7 @@ class ShapeFields:
         """Return new primitives, and the meshes that there are."""
         yield "New", None
         for title in PRIMITIVES:
-            yield title, title
+            yield translated(title), title
         entries = [e for e in self._workspace.resources.entries() if e.kind == "mesh"]
         if entries:
             yield "In the scene", None
@@ -98,7 +99,7 @@ class ShapeFields:
     def _draw_argument(
         self, nodes: Sequence[Node], title: str, name: str, rows: list[list[Any]]
     ) -> None:
-        label = name.replace("_", " ").capitalize()
+        label = _title(name)
         changed: dict[int, Any] | None
         if name in PARTS:
             changed = self._fields.integers(label, rows, _LEAST_PARTS[title], MOST_PARTS[name])
@@ -117,16 +118,19 @@ class ShapeFields:
             self._workspace.console.write_once("error", str(error))
             return
         each = [(node, {"object": mesh}) for node, mesh in zip(nodes, new, strict=True)]
-        self._fields.drag(each, f"Set the {name.replace('_', ' ')}")
+        said = translated(_title(name)).lower()
+        self._fields.drag(each, translated("Set the {name}", name=said))
 
     def _draw_counts(self, held: Sequence[Any], meshes: Sequence[Mesh]) -> None:
         instances = [len(each.poses) for each in held if isinstance(each, InstancedMesh)]
         with self._fields.fold("Counts") as is_open:
             if is_open:
                 if instances:
-                    self._fields.value("Instances", f"{sum(instances):,}")
-                self._fields.value("Vertices", f"{sum(len(m.positions) for m in meshes):,}")
-                self._fields.value("Triangles", f"{sum(len(m.faces) for m in meshes):,}")
+                    self._fields.value("Instances", translated_number(sum(instances), ","))
+                vertices = sum(len(mesh.positions) for mesh in meshes)
+                triangles = sum(len(mesh.faces) for mesh in meshes)
+                self._fields.value("Vertices", translated_number(vertices, ","))
+                self._fields.value("Triangles", translated_number(triangles, ","))
 
 
 def mesh_of(held: Mesh | InstancedMesh) -> Mesh:
@@ -137,5 +141,10 @@ def mesh_of(held: Mesh | InstancedMesh) -> Mesh:
 def _name(held: Any) -> str:
     """Return how a shape is called."""
     if held is None:
-        return "none"
-    return mesh_of(held).name or "unnamed"
+        return translated("none")
+    return mesh_of(held).name or translated("unnamed")
+
+
+def _title(name: str) -> str:
+    """Return the title of a primitive's argument."""
+    return name.replace("_", " ").capitalize()

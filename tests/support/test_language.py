@@ -1,0 +1,106 @@
+"""The language of windows: what chooses it, how long it lasts, what texts and numbers become."""
+
+import pytest
+
+from engine3d import InvalidArgumentError
+from engine3d.base import language
+from engine3d.base.language import (
+    languages,
+    speaking,
+    translated,
+    translated_choice,
+    translated_count,
+    translated_keys,
+    usual_language,
+)
+
+
+@pytest.mark.parametrize(
+    ("environment", "expected"),
+    [
+        ({}, "en"),
+        ({"LANG": "C"}, "en"),
+        ({"LANG": "fr_FR.UTF-8"}, "fr"),
+        ({"LANG": "fr"}, "fr"),
+        ({"LANG": "fr.UTF-8"}, "fr"),
+        ({"LANG": "fr@euro"}, "fr"),
+        ({"LANG": "fro_FR.UTF-8"}, "en"),
+        ({"LANG": "xx_XX.UTF-8"}, "en"),
+        ({"LANG": "fr_FR.UTF-8", "LC_ALL": "en_US.UTF-8"}, "en"),
+        ({"LANG": "en_US.UTF-8", "LC_MESSAGES": "fr_CA.UTF-8"}, "fr"),
+        ({"LANG": "fr_FR.UTF-8", "LC_ALL": ""}, "fr"),
+        ({"LANG": "en_US.UTF-8", "LANGUAGE": "xx:fr:en"}, "fr"),
+        ({"LANGUAGE": "fr"}, "en"),
+        ({"LANG": "C", "LANGUAGE": "fr"}, "en"),
+    ],
+)
+def test_the_language_is_that_of_the_locale(environment, expected):
+    assert usual_language(environment) == expected
+
+
+def test_texts_are_english_but_in_a_block_with_another_language():
+    assert languages()[0] == "en" and "fr" in languages()
+    assert translated("saved {name}", name="a.png") == "saved a.png"
+    with speaking("fr"):
+        assert translated("saved {name}", name="a.png") == "a.png enregistré"
+        assert translated("no such text") == "no such text"
+        with speaking("en"):
+            assert translated("Save") == "Save"
+        assert translated("Save") == "Enregistrer"
+    assert translated("Save") == "Save"
+
+
+def test_an_error_ends_the_language_too():
+    with pytest.raises(ValueError), speaking("fr"):
+        raise ValueError
+    assert translated("Save") == "Save"
+
+
+def test_braces_of_texts_without_values_stay():
+    assert translated("cannot read {x}.obj") == "cannot read {x}.obj"
+
+
+@pytest.mark.parametrize(
+    ("count", "english", "french"),
+    [(0, "0 nodes", "0 nœud"), (1, "1 node", "1 nœud"), (1234, "1,234 nodes", "1\u00a0234 nœuds")],
+)
+def test_counts_have_the_plural_and_the_marks_of_the_language(count, english, french):
+    assert translated_count("{count:,} node", "{count:,} nodes", count) == english
+    with speaking("fr"):
+        assert translated_count("{count:,} node", "{count:,} nodes", count) == french
+
+
+def test_only_numbers_get_other_marks():
+    with speaking("fr"):
+        assert translated("{ms:.1f} ms to draw", ms=2.5) == "dessiné en 2,5 ms"
+        assert translated("saved {name}", name="a.b,c") == "a.b,c enregistré"
+
+
+def test_values_depend_on_their_option():
+    assert translated_choice("fog", "none") == "none"
+    with speaking("fr"):
+        assert translated_choice("fog", "none") == "aucun"
+        assert translated_choice("cull", "none") == "aucune"
+
+
+@pytest.mark.parametrize(
+    ("keys", "french"),
+    [
+        ("Ctrl+Shift+Z", "Ctrl+Maj+Z"),
+        ("Delete", "Suppr"),
+        ("Shift+Up", "Maj+Haut"),
+        ("+", "+"),
+        ("Ctrl++", "Ctrl++"),
+        ("F11", "F11"),
+    ],
+)
+def test_keys_have_the_names_of_the_keyboard(keys, french):
+    assert translated_keys(keys) == keys
+    with speaking("fr"):
+        assert translated_keys(keys) == french
+
+
+def test_a_language_without_a_catalogue_is_refused():
+    with pytest.raises(InvalidArgumentError, match="one of en, fr, not 'xx'"), speaking("xx"):
+        pass
+    assert language._chosen is None

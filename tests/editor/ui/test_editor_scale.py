@@ -12,6 +12,7 @@ from engine3d.apps.editor.ui.editor_window import EditorWindow
 from engine3d.apps.editor.ui.panel_layout import layout_path, save_layout
 from engine3d.apps.editor.ui.resources_panel import PICTURE
 from engine3d.apps.editor.ui.style import FONT_PIXELS, scaled
+from engine3d.apps.editor.ui.translated_imgui import imgui as translated_imgui
 from engine3d.apps.editor.ui.workspace import PANELS
 
 
@@ -77,14 +78,14 @@ def test_the_editor_follows_its_window_to_another_screen(opened):
 
 @pytest.mark.parametrize(("scale", "size"), [(1.0, (1000, 640)), (2.0, (1024, 700))])
 def test_numbers_of_properties_are_not_cut(opened, scale, size, monkeypatch):
-    editor, asked, rooms = opened(scale, size), imgui.drag_float, []
+    editor, asked, rooms = opened(scale, size), translated_imgui.drag_float, []
 
     def drag(label, value, *others):
         rooms.append(imgui.calc_item_width() - 2 * imgui.get_style().frame_padding.x)
         rooms.append(imgui.calc_text_size("0.000").x)
         return asked(label, value, *others)
 
-    monkeypatch.setattr(imgui, "drag_float", drag)
+    monkeypatch.setattr(translated_imgui, "drag_float", drag)
     editor.workspace.document.selection.set([find(editor, "Boiler")])
     settle(editor)
     assert rooms and all(room > text for room, text in zip(rooms[::2], rooms[1::2], strict=True))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "pictures"
-MAX_BYTES = 2_300_000
+MAX_BYTES = 2_500_000
 
 
 def check(backend):

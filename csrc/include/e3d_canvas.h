@@ -108,7 +108,8 @@ typedef struct e3d_glyph_box {
 
 /* What the edges add to a pixel: how high they are, and the doubled area to the left of them. */
 typedef struct e3d_cell {
-    int32_t cover, area;
+    int64_t area; /* of any number of windings */
+    int32_t cover;
 } e3d_cell;
 
 /* Finds the pixels that an outline may cover. */

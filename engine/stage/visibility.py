@@ -21,6 +21,7 @@ from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
 from ..rendering.frame import Frame
+from .inspection.cut_faces import hatching
 from .painting import painted
 
 DRAWABLE = (Mesh, InstancedMesh)
@@ -118,6 +119,11 @@ class Visibility:
         if self._hidden_materials or self._hidden_nodes:
             self._apply()
 
+    @property
+    def hidden_nodes(self) -> frozenset[Node]:
+        """The nodes that are hidden."""
+        return frozenset(self._hidden_nodes)
+
     def tell_whole_face(self, frame: Frame, x: int, y: int) -> None:
         """Map a pixel's face ID from the drawn part to the whole mesh."""
         face = int(frame.face_id[y, x])
@@ -136,7 +142,9 @@ class Visibility:
     def _drawn_part(self, thing: Drawable) -> Drawable:
         """Return what is drawn of a mesh, or of instances of one."""
         part = self._visible_part(thing)
-        return part if self._paint is None else painted(part, self._paint)
+        if self._paint is None or mesh_of(part).materials[0] is hatching():
+            return part
+        return painted(part, self._paint)
 
     def _kept(self, mesh: Mesh) -> np.ndarray:
         """Return which faces of a mesh have visible materials."""

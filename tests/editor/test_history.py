@@ -375,3 +375,28 @@ def test_a_state_holds_how_nodes_are_bent():
     state.put()
     assert node.skin is skin and node.morph_weights.tolist() == [0.25]
     assert state == SceneState(scene)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"euler": (0.5, 0.25, -0.125)},
+        {"scale": (2.0, 1.0, 1.0)},
+        {"rotation": (0.0, 0.0, 0.0, 1.0)},
+        {"pose": np.eye(4)},
+        {"translation": (1.0, 2.0, 3.0)},
+    ],
+)
+def test_undo_restores_places_to_the_bit(values):
+    scene, rng = e3d.Scene(), np.random.default_rng(7)
+    turned = scene.add(e3d.box(), rotation=(0.1, 0.2, 0.3, np.sqrt(0.86)), scale=(1.1, 0.7, 0.9))
+    sheared = scene.add(e3d.box())
+    pose = np.eye(4)
+    pose[:3] = rng.normal(size=(3, 4))
+    sheared.pose = pose
+    document = SceneDocument(scene)
+    before = [(node.pose.tobytes(), node.rotation, node.scale) for node in (turned, sheared)]
+    assert document.do(SetValues([turned, sheared], values))
+    document.undo()
+    after = [(node.pose.tobytes(), node.rotation, node.scale) for node in (turned, sheared)]
+    assert [str(row) for row in after] == [str(row) for row in before]

@@ -124,3 +124,16 @@ def test_a_named_material_that_is_replaced_stays_in_the_list(document):
     assert document.resources.kept_materials == ()
     document.redo()
     assert document.resources.kept_materials == (first,)
+
+
+def test_instances_are_dressed_alone(document):
+    box, other = document.scene.nodes[0], document.scene.nodes[3]
+    crowd = document.scene.add(e3d.InstancedMesh(box.object, [(3, 0, 0, 1), (4, 0, 0, 1)]))
+    plain, before = other.object.materials[0], SceneState(document.scene)
+    material = red(document)
+    assert document.do(Dress(document.resources, [crowd], material))
+    assert crowd.object.mesh.materials == [material] or material in crowd.object.mesh.materials
+    assert len(crowd.object) == 2 and other.object.materials[0] is plain
+    document.undo()
+    document.undo()
+    assert SceneState(document.scene) == before

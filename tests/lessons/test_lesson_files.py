@@ -92,6 +92,7 @@ def test_the_solution_gives_the_answer(program, tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     texts, answer = texts_of(program), float(done.stdout)
     assert texts.is_right(done.stdout) and texts.is_right(f" {answer:.1f} ".replace(".", ","))
+    assert texts.is_right(f"{answer:,.0f}") == answer.is_integer()
     for wrong in (str(answer + 1), str(-answer), "", "x", "nan"):
         assert not texts.is_right(wrong)
 

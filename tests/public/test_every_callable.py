@@ -32,7 +32,8 @@ def apart(tmp_path, monkeypatch):
     """A folder with files to read, a screen that is none, and no window that stays open."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    monkeypatch.setattr(show, "Window", no_screen)
+    for window in ("Window", "ProgramWindow"):
+        monkeypatch.setattr(show, window, no_screen)
     if find_spec("distributed"):
         monkeypatch.setattr("distributed.Client", no_scheduler)
     (tmp_path / "there.obj").write_bytes(OBJ)

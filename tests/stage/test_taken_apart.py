@@ -186,3 +186,41 @@ def test_a_cut_is_seen_hatched_in_the_picture():
     middle = frame.color[10:-10, 10:-10, :3].reshape(-1, 3).astype(int)
     assert (middle[:, 0] > middle[:, 2] + 60).all()  # orange and brown, without a gap
     assert len(np.unique(middle, axis=0)) > 2
+
+
+def test_each_of_two_parts_with_one_name_gets_its_face():
+    scene = e3d.Scene()
+    places = [(x, 0.0, 0.0, 1.0) for x in range(5000)]
+    scene.add(e3d.InstancedMesh(e3d.box(), places), name="tree")
+    scene.add(e3d.box(), name="tree", translation=(0, 0, 9))
+    apart = TakenApart(ViewedScene(scene, "model"))
+    apart.spread(0.0)
+    apart.cut(Plane(1, 0.0, True))
+    assert apart.uncut == ["tree"] and "cut of tree" in nodes_of(apart)
+
+
+def test_cut_instances_keep_what_their_node_casts():
+    scene = e3d.Scene()
+    scene.add(e3d.InstancedMesh(e3d.box(), [(0, 0, 0, 1)]), name="a", cast_shadows=False)
+    apart = TakenApart(ViewedScene(scene, "model"))
+    apart.spread(0.0)
+    apart.cut(Plane(0, 0.1, True))
+    pieces = [node for node in apart.viewed.scene.nodes if node.name == "a" and node.object]
+    assert pieces and not any(node.cast_shadows for node in pieces)
+
+
+def test_hidden_parts_have_no_cut():
+    apart = apart_of((e3d.box(), (0, 0, 0)), (e3d.box(), (0, 2, 0)))
+    apart.spread(0.0)
+    hidden = nodes_of(apart)["part 0"]
+    apart.cut(Plane(0, 0.0, True), {hidden})
+    assert "cut of part 0" not in nodes_of(apart) and "cut of part 1" in nodes_of(apart)
+
+
+def test_many_loose_pieces_are_told_apart_soon():
+    count = 60_000
+    rng = np.random.default_rng(1)
+    corners = rng.normal(0, 10, (count, 1, 3)) + rng.normal(0, 0.1, (count, 3, 3))
+    mesh = e3d.Mesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
+    parts = loose_parts(mesh)
+    assert sum(part.faces.sum() for part in parts) == count

@@ -221,3 +221,25 @@ def test_another_model_begins_whole(tmp_path):
     viewer.opening.open([path])
     assert not viewer.inspector.is_cut and viewer.inspector.parts == 0
     assert bounds(viewer).tolist() == [[-0.5] * 3, [0.5] * 3]
+
+
+def test_a_key_without_a_name_cuts_nothing_else():
+    viewer = make_viewer()
+    press(viewer, "X", control=True)
+    press(viewer, "Z")
+    before = bounds(viewer)
+    press(viewer, "")
+    assert (bounds(viewer) == before).all() and viewer.inspector.axis == 2
+
+
+def test_a_second_click_measures_and_another_model_forgets():
+    viewer = make_viewer()
+    press(viewer, "M", control=True)
+    distance = viewer.view.distance
+    x, y = viewer.frame.project((1.0, 0.0, 0.5))[0]
+    for down in (True, False):
+        viewer.handle(events.MouseButton("left", down, x=int(x), y=int(y), clicks=2))
+    viewer.draw()
+    assert viewer.view.distance == distance and len(viewer.panel._points) == 1
+    viewer.forget_scene()
+    assert len(viewer.panel._points) == 0

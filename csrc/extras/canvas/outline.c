@@ -69,7 +69,7 @@ static void trace_row(e3d_cell *row, int64_t x0, int64_t x1, int64_t height, int
         int64_t to = min_i64(x1, (column + 1) * SUBPIXELS);
         int64_t reached = to == x1 ? height : floor_quotient((to - x0) * height, x1 - x0);
         row[column].cover += (int32_t)(sign * (reached - done));
-        row[column].area += (int32_t)(sign * (reached - done) * (from + to - 2 * column * SUBPIXELS));
+        row[column].area += sign * (reached - done) * (from + to - 2 * column * SUBPIXELS);
         done = reached, from = to;
     }
 }

@@ -18,7 +18,7 @@ from ...model.scene.nodes import Node
 from .history import Command
 from .node_commands import named
 from .resource_list import ResourceList
-from .value_commands import SetValues
+from .value_commands import SetEach, SetValues
 
 
 class KeepMaterial(Command):
@@ -89,7 +89,7 @@ class Dress(Command):
         name = material.name or translated("a material")
         self.label = translated("Give {name} to {things}", name=name, things=named(self.nodes))
         self._resources, self._material, self._slot = resources, material, slot
-        self._steps: list[SetValues] | None = None
+        self._steps: list[SetEach] | None = None
         self._kept: list[Material] = []
 
     def do(self) -> None:
@@ -113,7 +113,7 @@ class Dress(Command):
         held = dict.fromkeys(each for mesh in meshes for each in mesh.materials if each.name)
         return [each for each in held if each not in self._resources.kept_materials]
 
-    def _made(self) -> list[SetValues]:
+    def _made(self) -> list[SetEach]:
         """Return a step for each mesh, whose nodes go on sharing what they get."""
         by_mesh: dict[Mesh, list[Node]] = {}
         for node in self.nodes:
@@ -122,16 +122,24 @@ class Dress(Command):
                 by_mesh.setdefault(mesh, []).append(node)
         return [self._step(mesh, nodes) for mesh, nodes in by_mesh.items()]
 
-    def _step(self, mesh: Mesh, nodes: list[Node]) -> SetValues:
+    def _step(self, mesh: Mesh, nodes: list[Node]) -> SetEach:
         materials = [self._material] * len(mesh.materials)
         if self._slot is not None and self._slot < len(materials):
             materials = list(mesh.materials)
             materials[self._slot] = self._material
         users = set(self._resources.users(mesh))
         is_shared = not users <= set(nodes)
-        if is_shared and all(node.object is mesh for node in nodes):
-            return SetValues(nodes, {"object": twin_of(mesh, materials, mesh.name)})
+        if is_shared:
+            twin = twin_of(mesh, materials, mesh.name)
+            return SetEach((node, {"object": _showing(node.object, twin)}) for node in nodes)
         return SetValues([mesh], {"materials": materials})
+
+
+def _showing(held: object, mesh: Mesh) -> Mesh | InstancedMesh:
+    """Return a mesh as a node held another one: once, or at the same places."""
+    if isinstance(held, InstancedMesh):
+        return InstancedMesh(mesh, held.poses, colors=held.colors)
+    return mesh
 
 
 def mesh_of(node: Node | None) -> Mesh | None:

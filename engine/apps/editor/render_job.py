@@ -33,11 +33,14 @@ class Shot:
         World-from-camera.
     time : float or None
         Of the scene's animator; None leaves the nodes where they are.
+    node : int or None
+        The place of the camera among the scene's nodes, if it moves with them.
     """
 
     camera: Camera
     pose: Any
     time: float | None = None
+    node: int | None = None
 
 
 class RenderJob:
@@ -120,7 +123,10 @@ class RenderJob:
                 return
             shot = self._shots[0]
             self._seek(shot)
-            renderer.render(self._scene, (shot.camera, shot.pose)).save(self.path)
+            frame = renderer.render(self._scene, (shot.camera, shot.pose))
+            if self._stops.is_set():
+                raise _Stopped
+            frame.save(self.path)
             self.done = 1
 
     def _pictures(self, renderer: Renderer) -> Iterator[np.ndarray]:
@@ -128,7 +134,8 @@ class RenderJob:
             if self._stops.is_set():
                 raise _Stopped
             self._seek(shot)
-            yield renderer.render(self._scene, (shot.camera, shot.pose)).color
+            pose = shot.pose if shot.node is None else self._scene.nodes[shot.node].world_pose
+            yield renderer.render(self._scene, (shot.camera, pose)).color
             self.done += 1
 
     def _seek(self, shot: Shot) -> None:

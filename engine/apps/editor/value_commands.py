@@ -13,7 +13,11 @@ from ...model.materials.material import Material, put_states_color, states_color
 from ...model.scene.cameras import Camera
 from ...model.scene.lights import DirectLight
 from ...model.scene.nodes import Node
+from ...model.scene.placements import Placements
 from .history import Command
+
+#: What places a node: set back together, since each changes the others in its last bits.
+_PLACE = frozenset(("translation", "rotation", "euler", "scale", "pose"))
 
 
 class SetEach(Command):
@@ -37,9 +41,16 @@ class SetEach(Command):
             "Set {values} of {things}", values=", ".join(names), things=_named(things)
         )
         self._old: list[tuple[Any, str, Any, bool]] = []
+        self._places: Placements | None = None
 
     def do(self) -> None:
         self._old = []
+        moved = [
+            thing
+            for thing, values in self._values
+            if isinstance(thing, Node) and not _PLACE.isdisjoint(values)
+        ]
+        self._places = Placements(moved[0].scene, moved) if moved else None
         try:
             for thing, values in self._values:
                 for name, value in values.items():
@@ -56,6 +67,8 @@ class SetEach(Command):
             setattr(thing, name, old)
             if isinstance(thing, Material):
                 put_states_color(thing, stated)
+        if self._places is not None:
+            self._places.put(self._places.nodes[0].scene)
 
     def absorb(self, later: Command) -> bool:
         if not isinstance(later, SetEach) or later._assigned() != self._assigned():

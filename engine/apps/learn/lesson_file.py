@@ -18,6 +18,7 @@ _SECTION = re.compile(r"^## ([a-z]+)(?: (en|fr))?\n", re.M)
 _FENCE = re.compile(r"```python\n(.*?)```", re.S)
 # The numbers of Fowler, Noll and Vo's hash of 32 bits (FNV-1a).
 _OFFSET, _PRIME = 2166136261, 16777619
+_THOUSANDS = re.compile(r"-?[1-9]\d{0,2}(,\d{3})+(\.\d+)?")
 
 
 @dataclass(frozen=True)
@@ -141,12 +142,16 @@ def _value(word: str) -> float | str:
 def plain_answer(answer: str) -> str | None:
     """Return a typed number in the one way in which it is checked; None if it is none.
 
-    A decimal point may be a comma; the page of HTML does the same.
+    A decimal point may be a comma, and commas may part thousands; the page of HTML does the same.
     """
+    plain = answer.strip()
+    if _THOUSANDS.fullmatch(plain):
+        plain = plain.replace(",", "")
     try:
-        return f"{float(answer.strip().replace(',', '.')):g}"
+        number = float(plain.replace(",", "."))
     except ValueError:
         return None
+    return str(int(number)) if number.is_integer() else f"{number:g}"
 
 
 def hash_of(name: str, answer: str) -> int:

@@ -173,9 +173,15 @@ class Panel:
     def drag(self, x: int) -> None:
         """Handle a drag, to a column of the picture, that began with a click on the panel."""
 
+    #: Whether it uses clicks on the model.
+    takes_clicks = False
+
     def take(self, x: int, y: int) -> bool:
         """Handle a click on the model; return whether the panel used it."""
         return False
+
+    def forget(self) -> None:
+        """Forget what belongs to the model that was shown."""
 
     def scroll(self, steps: float) -> None:
         """Handle the wheel."""
@@ -213,6 +219,7 @@ class ObjectPanel(Panel):
 
     def press(self, number: int, alone: bool) -> None:
         self.viewer.view_renderer.visibility.toggle_object(number, alone)
+        self.viewer.inspector.arrange()  # what is hidden has no cut
 
 
 class MaterialPanel(Panel):

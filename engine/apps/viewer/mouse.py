@@ -51,6 +51,8 @@ class Mouse:
             self.release()
             return
         if self._viewer.walker is not None:
+            if event.down and panel is not None:
+                panel.take(event.x, event.y)
             return
         if event.down:
             self.release()
@@ -66,7 +68,8 @@ class Mouse:
         return self._travelled > CLICK_REACH * max(self._viewer.view_renderer.ui_scale, 1.0)
 
     def _click(self, event) -> None:
-        if event.clicks == 2:
+        panel = self._viewer.panel
+        if event.clicks == 2 and not (panel is not None and panel.takes_clicks):
             self._viewer.focus(event.x, event.y)
         else:
             self._viewer.select(event.x, event.y)

@@ -132,6 +132,8 @@ class ViewerState:
         """Reset the state that belongs to the previous scene."""
         self.selected = None
         self.inspector.forget()
+        if self._panel is not None:
+            self._panel.forget()
         self.messages.trouble = ""
         self.sampling.start_anew()
 

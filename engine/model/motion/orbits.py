@@ -99,7 +99,10 @@ class Orbit(NodeMotion):
     def changed(self, **values: Any) -> Orbit:
         """Return the orbit with some of `ORBIT_VALUES` replaced."""
         held = {name: getattr(self, name) for name in ORBIT_VALUES} | values
-        return Orbit(cast("Node", self.node), *held.values())
+        made = Orbit(cast("Node", self.node), *held.values())
+        if "about" not in values:
+            made._about = self._about  # also of a node that is gone
+        return made
 
     def copied(self, copy_of: Callable[[Node], Node]) -> Self | None:
         made = super().copied(copy_of)

@@ -78,7 +78,10 @@ def _with_hollows(pieces: NDArray[np.int64], corners: NDArray[np.float64]) -> ND
     np.minimum.at(low, pieces, corners.min(axis=1))
     np.maximum.at(high, pieces, corners.max(axis=1))
     owners = np.arange(count)
+    # No more than the largest pieces come apart, and only they hold hollows.
     solid = np.flatnonzero(volumes > 0.0)
+    sizes = np.bincount(pieces, minlength=count)
+    solid = solid[np.argsort(-sizes[solid], kind="stable")[:MOST_PARTS]]
     for hollow in np.flatnonzero(volumes < 0.0).tolist():
         around = solid[((low[solid] <= low[hollow]) & (high[solid] >= high[hollow])).all(axis=1)]
         if len(around):

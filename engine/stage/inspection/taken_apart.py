@@ -7,6 +7,7 @@ drawn, picked, lit and measured like any other; the model itself does not change
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from typing import Any, NamedTuple, TypeAlias
 
@@ -140,6 +141,7 @@ class TakenApart:
         """Move all parts, uncut, away from the middle: 1 doubles their distances."""
         if amount > 0.0 and not self._is_split:
             self._split()
+        self.viewed.focus = None if amount else self.whole.focus
         for node in self._pieces:
             self._scene.remove(node)
         self._pieces, self.open_cuts, self.uncut = [], [], []
@@ -187,18 +189,21 @@ class TakenApart:
 
     # Cutting
 
-    def cut(self, plane: Plane) -> None:
+    def cut(self, plane: Plane, hidden: Collection[Node] = ()) -> None:
         """Cut off, from where `spread` left the parts, what is at the side that sees a plane.
 
         Parameters
         ----------
         plane : Plane
             In the scene's space.
+        hidden : collection of Node
+            Nodes of the copy that do not show: they get no cut faces.
         """
-        outlines = cut_nodes((part.node for part in self._parts), plane)
+        parts = [part for part in self._parts if part.node not in hidden]
+        outlines = cut_nodes((part.node for part in parts), plane)
         radius = 0.5 * float(linalg.length(np.subtract(*self.whole.scene.bounds)))
         names = {part.node.id: part.node.name or f"object {part.node.id}" for part in self._parts}
-        for part in self._parts:
+        for part in parts:
             self._cut_part(part, plane)
         # What is cut inside something else shows before it.
         outlines.sort(key=lambda outline: -area_of(outline.segments, plane))
@@ -207,24 +212,25 @@ class TakenApart:
             face = cut_face(outline, plane, radius * _PITCH, lift)
             if face is None:
                 self.open_cuts.append(names[outline.node])
-            elif names[outline.node] not in self.uncut:
+            else:
                 name = translated("cut of {name}", name=names[outline.node])
                 self._pieces.append(self._scene.add(face, name=name))
 
     def _cut_part(self, part: _Part, plane: Plane) -> None:
         node, thing = part.node, part.node.object
         if isinstance(thing, Mesh):
-            side = _side(thing, _height(node.pose, plane))
-            node.object = clipped(thing, _height(node.pose, plane)) if side == 0 else thing
+            height = _heights(node.pose, plane)
+            side = _sides(thing, height)
+            node.object = clipped(thing, height) if side == 0 else thing
             if side < 0:
                 node.object = None
         elif isinstance(thing, InstancedMesh):
             self._cut_instances(node, thing, plane)
 
     def _cut_instances(self, node: Node, thing: InstancedMesh, plane: Plane) -> None:
-        poses = [linalg.multiply(node.pose, own) for own in instance_matrices(thing.poses)]
-        heights = [_height(pose, plane) for pose in poses]
-        sides = np.array([_side(thing.mesh, height) for height in heights], np.int64)
+        own = instance_matrices(thing.poses).astype(np.float64)
+        heights = _heights(linalg.multiply(node.pose, own), plane)
+        sides = _sides(thing.mesh, heights)
         crossing = np.flatnonzero(sides == 0)
         if len(thing) > MOST_INSTANCES and len(crossing):
             self.uncut.append(node.name or f"object {node.id}")
@@ -233,8 +239,14 @@ class TakenApart:
         for number in crossing.tolist():
             piece = clipped(mesh, heights[number])
             if piece is not None:
-                own = _rows(thing, [number], piece)
-                self._pieces.append(self._scene.add(own, name=node.name, pose=node.pose))
+                made = self._scene.add(
+                    _rows(thing, [number], piece),
+                    name=node.name,
+                    pose=node.pose,
+                    cast_shadows=node.cast_shadows,
+                    receive_shadows=node.receive_shadows,
+                )
+                self._pieces.append(made)
         node.object = _rows(thing, np.flatnonzero(sides > 0), thing.mesh)
 
 
@@ -244,15 +256,15 @@ def _rows(thing: InstancedMesh, rows: Any, mesh: Mesh) -> InstancedMesh:
     return InstancedMesh(mesh, thing.poses[rows], colors=colors)
 
 
-def _height(pose: NDArray[np.float64], plane: Plane) -> NDArray[np.float64]:
-    """Return a plane's equation in the space of a pose, positive on the side that stays."""
-    row = np.array(pose[plane.axis], np.float64)
-    row[3] -= plane.coordinate
-    return -row if plane.from_above else row
+def _heights(poses: NDArray[np.float64], plane: Plane) -> NDArray[np.float64]:
+    """Return a plane's equation in the space of each pose, positive on the side that stays."""
+    rows = np.array(poses[..., plane.axis, :], np.float64)
+    rows[..., 3] -= plane.coordinate
+    return -rows if plane.from_above else rows
 
 
-def _side(mesh: Mesh, height: NDArray[np.float64]) -> int:
-    """Return 1 for a mesh that stays, -1 for one that is cut off, 0 for one that is cut."""
+def _sides(mesh: Mesh, heights: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return 1 where a mesh stays, -1 where it is cut off, 0 where it is cut."""
     corners = box_corners(np.asarray(mesh.bounds, np.float64))
-    heights = linalg.dot(corners, height[:3]) + float(height[3])
-    return int((heights >= 0.0).all()) - int((heights < 0.0).all())
+    above = linalg.dot(heights[..., np.newaxis, :3], corners) + heights[..., 3:]
+    return (above >= 0.0).all(axis=-1).astype(np.int64) - (above < 0.0).all(axis=-1)

@@ -24,7 +24,7 @@ def short_statistics(times: FrameTimes, stats: dict[str, Any]) -> str:
         translated("{ms:.1f} ms to draw", ms=times.drawing_seconds * 1000),
         translated("{drawn:,} of {total:,} triangles", drawn=drawn, total=total),
     ]
-    if times.count > 1:
+    if times.count > 1 and times.seconds > 0.0:
         parts.insert(0, translated("{rate:.0f} frames per second", rate=1.0 / times.seconds))
     return ", ".join(parts)
 

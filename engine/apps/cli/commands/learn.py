@@ -67,10 +67,11 @@ def choose(wanted: str, programs: list[Path]) -> int:
 
 def check(program: Path, file: str, language: str) -> int:
     """Tell whether a pupil's program prints the answer of the exercise; return the exit status."""
-    done = subprocess.run([sys.executable, file], stdout=subprocess.PIPE, text=True)
+    command = [sys.executable, file]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, errors="replace")
     if done.returncode != 0:  # what is wrong has been printed
         return 1
-    numbers = re.findall(r"-?\d+(?:[.,]\d+)?", done.stdout)
+    numbers = re.findall(r"-?(?:[1-9]\d{0,2}(?:,\d{3})+|\d+)(?:[.,]\d+)?", done.stdout)
     is_right = bool(numbers) and texts_of(program).is_right(numbers[-1])
     verdict = say("right" if is_right else "wrong" if numbers else "none", language)
     write_line(f"{numbers[-1]}: {verdict}" if numbers else verdict)

@@ -73,6 +73,8 @@ def _render(args: argparse.Namespace) -> int:
     report = Report(args.verbose)
     viewed = scene_options.viewed_scene(args)
     report.loaded(viewed)
+    if viewed.update is not None:
+        viewed.update(0.0)  # as pictures show it
     inspection_options.tell_measures(args, viewed)
     viewed = inspection_options.inspected(viewed, args.explode, args.section)
     how = options.viewing(args, **inspection_options.sizes(args))

@@ -61,6 +61,9 @@ def _run(args: argparse.Namespace, found: list[argparse.Namespace], reason: str 
             if args.terminal:
                 raise
             reason = str(error)
+            with speaking(ENGLISH):  # as in files that no window was meant to be instead of
+                viewed = scene_options.viewed_scene(args, default_scene="default")
+                return _write(args, viewed, reason, report)
     return _write(args, viewed, reason, report)
 
 

@@ -204,8 +204,11 @@ class EditorWindow:
         if isinstance(event, events.Exposed | events.Resized | events.Restored):
             set_scale(self.window.scale)  # the window may have moved to another screen
         if isinstance(event, events.CloseRequested):
+            self._rendering.close()
             self._files.exit()
         elif isinstance(event, events.FilesDropped):
+            if self._rendering.is_waiting:
+                return  # the scene must not change while it is drawn
             for path in event.paths:
                 self.workspace.add_file(path, self._scene.node_under_mouse())
         else:

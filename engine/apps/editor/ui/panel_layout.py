@@ -50,6 +50,8 @@ def load_layout(workspace: Workspace, size: tuple[int, int]) -> bool:
         return False
     settings = text.partition(_HEAD)[2].partition("\n[")[0]
     _read_settings(workspace, settings)
+    if "[Docking]" in text and not all(f"###{name}]" in text for name in PANELS):
+        return False  # from before panels had IDs that no language changes
     ratio = _scale_ratio(settings)
     if ratio != 1.0:
         text = _enlarged(text, ratio)

@@ -207,7 +207,10 @@ class RenderDialog:
         seconds = self._workspace.document.length
         still = self._shot(0.0)
         times = [seconds * number / count for number in range(count)]
-        return [Shot(still.camera, still.pose, time) for time in times]
+        node = self.choices.camera
+        moves = node is not None and isinstance(node.object, Camera)
+        place = self._workspace.scene.nodes.index(node) if moves else None
+        return [Shot(still.camera, still.pose, time, place) for time in times]
 
     def _count(self) -> int:
         """Return the number of pictures."""

@@ -325,9 +325,14 @@ class Controls:
         viewer.time = self._time_line.share_at(x) * viewer.view_renderer.viewed.period
         viewer.redraw()
 
+    @property
+    def _is_click(self) -> bool:
+        """Whether the mouse moved no further than in a click."""
+        return self._travelled <= CLICK_REACH * max(self.scale, 1.0)
+
     def _turn_ball(self, event: Any) -> None:
         self._travelled += abs(event.dx) + abs(event.dy)
-        if self._travelled > CLICK_REACH:
+        if not self._is_click:
             turn = round(2 * _BALL_TURN * RADIUS * self.scale)
             self._viewer.orbit.rotate(event.dx, event.dy, turn)
             self._viewer.redraw()
@@ -337,7 +342,7 @@ class Controls:
         viewer, held = self._viewer, self._held
         self.release()
         ball = self._ball
-        if held == "ball" and self._travelled <= CLICK_REACH and ball is not None:
+        if held == "ball" and self._is_click and ball is not None:
             name = tip_at(viewer.view.rotation(), ball, moved.x, moved.y)
             if name is not None:
                 turn_to(viewer.view, name)

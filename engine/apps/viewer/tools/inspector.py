@@ -97,7 +97,8 @@ class Inspector:
             self._renew()
         if self.is_cut:
             at = self.place - self._apart.viewed.origin[self.axis]
-            self._apart.cut(Plane(self.axis, at, self.from_above))
+            hidden = self._viewer.view_renderer.visibility.hidden_nodes
+            self._apart.cut(Plane(self.axis, at, self.from_above), hidden)
 
     def _restore(self) -> None:
         if self._apart is not None:

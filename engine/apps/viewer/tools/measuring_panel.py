@@ -41,6 +41,7 @@ class MeasuringPanel(Panel):
 
     title = "Measure"
     hint = "Escape keeps the marks"
+    takes_clicks = True
 
     def __init__(self, viewer) -> None:
         super().__init__(viewer)
@@ -107,6 +108,9 @@ class MeasuringPanel(Panel):
         now = Measurement(self._kind, self._points)
         begun = (now,) if len(self._points) else ()
         self.viewer.view_renderer.settings.measured = (*self._done, *begun)
+
+    def forget(self) -> None:
+        self._points, self._done, self._surface = self._points[:0], [], []
 
     def end(self) -> None:
         self.viewer.view_renderer.settings.measured = ()

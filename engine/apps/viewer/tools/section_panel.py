@@ -59,7 +59,7 @@ class SectionPanel(SliderPanel):
 
     def key(self, event) -> bool:
         cut = self.viewer.inspector
-        if event.key in _AXES and not event.control:
+        if event.key in tuple(_AXES) and not event.control:
             cut.axis = _AXES.index(event.key)
         elif event.key == "F" and not event.control:
             cut.from_above = not cut.from_above

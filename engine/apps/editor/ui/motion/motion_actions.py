@@ -129,11 +129,24 @@ def set_key(workspace: Workspace) -> None:
 
 def delete_key(workspace: Workspace) -> None:
     """Delete the keyframes of the selected nodes at the present time."""
+    time = time_of(workspace)
+    found: list[tuple[Node, Track, Track | None]] = []
     for node in workspace.document.selection.nodes:
         track = track_of(workspace, node)
-        number = None if track is None else key_near(track, time_of(workspace))
+        number = None if track is None else key_near(track, time)
         if track is not None and number is not None:
-            remove_key(workspace, track, number)
+            found.append((node, track, without_key(track, number)))
+    if not found:
+        return
+
+    def change(held: Motions) -> Motions:
+        for _, track, left in found:
+            held = (removed(track) if left is None else added(left))(held)
+        return held
+
+    nodes = tuple(node for node, *_ in found)
+    label = translated("Delete a key of {things}", things=named(nodes))
+    workspace.do(SetMotions(workspace.document.animator, workspace.scene, change, label, nodes))
 
 
 def remove_key(workspace: Workspace, track: Track, number: int) -> None:

@@ -53,6 +53,8 @@ class MotionFields:
 
     def draw(self, node: Node) -> None:
         """Lay the section out."""
+        if not imgui.is_any_item_active():
+            self._drag = None  # the mouse let go
         if not imgui.collapsing_header("Motion", imgui.TreeNodeFlags_.default_open):
             return
         held = motions_in(self._workspace.scene).of(node)

@@ -17,12 +17,13 @@ from .....model.scene.nodes import Node
 from ...motion_commands import NAMES, with_key_at
 from ...motion_copies import motions_in
 from ..panel_layout import begin_panel
+from ..style import scaled
 from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import motion_actions as actions
 
 _NAMES = 11.0  # width of the names, in heights of the font
-_KEY = 5.0  # half the diagonal of a key, in pixels
+_KEY = 5.0  # half the diagonal of a key, in pixels at scale 1
 _STEPS = (1.0, 2.0, 5.0)
 #: Pixels between two numbers of the ruler.
 _APART = 60.0
@@ -147,6 +148,8 @@ class TimelinePanel:
         scene = self._workspace.scene
         motions = motions_in(scene)
         key = scene, scene.data.removals
+        if self._made_of and self._made_of[0] is not scene:
+            self._least = 0.0
         if motions is not self._motions or key != self._made_of:
             self._motions, self._made_of = motions, key
             self._rows = _rows_of(scene, motions)
@@ -165,8 +168,8 @@ class TimelinePanel:
         """Lay out the seconds, along which the mouse moves the time."""
         height = imgui.get_frame_height()
         top = imgui.get_cursor_screen_pos().y
-        imgui.set_cursor_screen_pos((span.left - _KEY, top))
-        imgui.invisible_button("ruler", (span.width + 2.0 * _KEY, height))
+        imgui.set_cursor_screen_pos((span.left - scaled(_KEY), top))
+        imgui.invisible_button("ruler", (span.width + 2.0 * scaled(_KEY), height))
         if imgui.is_item_active():
             actions.seek(self._workspace, span.time(imgui.get_io().mouse_pos.x))
         lines, color = imgui.get_window_draw_list(), imgui.get_color_u32(_LINE)
@@ -191,8 +194,8 @@ class TimelinePanel:
             (selection.toggle if imgui.get_io().key_ctrl else selection.set)(
                 node if imgui.get_io().key_ctrl else [node]
             )
-        imgui.set_cursor_screen_pos((span.left - _KEY, place.y))
-        imgui.invisible_button("lane", (span.width + 2.0 * _KEY, height), _BUTTONS)
+        imgui.set_cursor_screen_pos((span.left - scaled(_KEY), place.y))
+        imgui.invisible_button("lane", (span.width + 2.0 * scaled(_KEY), height), _BUTTONS)
         middle = place.y + 0.5 * height
         tracks = [motion for motion in motions if isinstance(motion, Track)]
         others = [motion for motion in motions if not isinstance(motion, Track)]
@@ -261,7 +264,7 @@ def _key_at(span: _Span, track: Track, x: float) -> int | None:
     """Return the number of the key at a place, or None."""
     distances = [abs(span.place(time) - x) for time in track.times.tolist()]
     nearest = min(range(len(distances)), key=distances.__getitem__)
-    return nearest if distances[nearest] <= _KEY + 2.0 else None
+    return nearest if distances[nearest] <= scaled(_KEY + 2.0) else None
 
 
 def _draw_track(span: _Span, middle: float, track: Track, time: float) -> None:
@@ -269,8 +272,9 @@ def _draw_track(span: _Span, middle: float, track: Track, time: float) -> None:
     head = imgui.get_color_u32(_HEAD)
     places = [(span.place(each), each) for each in track.times.tolist()]
     lines.add_line((places[0][0], middle), (places[-1][0], middle), imgui.get_color_u32(_LINE))
+    half = scaled(_KEY)
     for x, each in places:
-        corners = [(x - _KEY, middle), (x, middle - _KEY), (x + _KEY, middle), (x, middle + _KEY)]
+        corners = [(x - half, middle), (x, middle - half), (x + half, middle), (x, middle + half)]
         lines.add_quad_filled(*corners, head if abs(each - time) < 5e-3 else color)
 
 

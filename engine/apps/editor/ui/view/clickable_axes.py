@@ -52,7 +52,8 @@ class ClickableAxes:
         side = 2 * radius
         if min(frame.width, frame.height) < _LEAST * radius:
             return False
-        left, top = frame.width - side - MARGIN, MARGIN
+        margin = round(scaled(MARGIN))
+        left, top = frame.width - side - margin, margin
         mouse = imgui.get_io().mouse_pos
         x, y = mouse.x - corner.x - left, mouse.y - corner.y - top
         place = BallPlace(radius, radius, radius)

@@ -25,6 +25,7 @@ class ThroughCamera:
         self._view = view
         self._node: Node | None = None
         self._before: Viewpoint | None = None
+        self._bounds: Sphere | None = None
 
     @property
     def node(self) -> Node | None:
@@ -37,7 +38,7 @@ class ThroughCamera:
     def look(self, node: Node, bounds: Sphere) -> None:
         """Look through a node's camera."""
         self.leave()
-        self._before, self._node = self._view.copy(), node
+        self._before, self._node, self._bounds = self._view.copy(), node, bounds
         look_through(self._view, node, bounds)
 
     def leave(self) -> None:
@@ -45,6 +46,10 @@ class ThroughCamera:
         view, before = self._view, self._before
         if before is None:
             return
+        node, bounds = self._node, self._bounds
+        is_there = node is not None and node.scene is not None and isinstance(node.object, Camera)
+        if is_there and bounds is not None:
+            look_through(view, node, bounds)  # it may have moved meanwhile
         eye, target = view.position(), np.array(view.target)
         view.up, view.yfov, view.lens = before.up, before.yfov, before.lens
         view.orthographic = before.orthographic

@@ -386,8 +386,8 @@ class Canvas(FixedNames):
         """
         x, y, radius = _numbers("x, y and radius", x, y, radius)
         inner = 0.0 if width is None else max(radius - _numbers("width", width)[0], 0.0)
-        if not 0.0 <= inner <= radius:
-            raise InvalidArgumentError("radius and width must not be negative")
+        if not 0.0 <= inner <= radius < math.inf:
+            raise InvalidArgumentError("radius and width must be finite, and not negative")
         points, flags, ends = radius * _CIRCLE, _ON_CIRCLE, _ONE_CIRCLE
         if inner > 0.0:
             points = np.concatenate([points, inner * _CIRCLE[::-1]])
@@ -551,9 +551,11 @@ def _contours(xy: Any) -> Sequence[Any]:
     """Return the contours of a polygon, which may be given as one array of corners."""
     if isinstance(xy, np.ndarray):
         return [xy] if xy.ndim < 3 else list(xy)
-    rows = list(xy)
-    is_one = all(np.ndim(row) == 1 for row in rows)
-    return [rows] if is_one else rows
+    if not isinstance(xy, Sequence):
+        return [xy]
+    rows = [as_array(row, "xy") for row in xy]
+    is_one = all(row.ndim == 1 for row in rows)
+    return [xy] if is_one else rows
 
 
 def _numbers(what: str, *values: float) -> list[float]:

@@ -157,7 +157,8 @@ NAMED_BY_OTHERS = {
     "io/output/video_files.py", "apps/golden/html_report.py", "apps/golden/result_files.py",
     "rendering/frame.py", "apps/sheet/contact_sheet.py", "io/formats/gltf/gltf_writer.py",
     "io/formats/obj/obj_writer.py", "io/formats/ply/ply_writer.py", "io/writing/scene_saving.py",
-    "io/formats/stl_writer.py", "io/plugins/plugin_writing.py", "apps/agents/exporting.py",
+    "io/formats/stl_writer.py", "io/plugins/plugin_writing.py", "apps/cli/commands/learn.py",
+    "apps/agents/exporting.py",
     "apps/drawings/line_drawing.py", "io/output/value_files.py", "compat/pyvista/_saving.py",
     "compat/trimesh/windowed.py", "extras/sensors/cloud_files.py",
 }  # fmt: skip

@@ -35,6 +35,7 @@ WRITERS = {
     "compat/open3d/view_control.py": "what Open3D's programs keep of a view",
     "apps/golden/golden_files.py": "golden",
     "apps/golden/result_files.py": "results",
+    "apps/learn/page_html.py": "for the script of a page",
     "apps/sheet/report.py": "for people and programs",
     "io/formats/gltf/gltf_writer.py": "gltf",
     "io/writing/scene_saving.py": "scene",

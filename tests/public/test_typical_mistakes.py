@@ -98,7 +98,10 @@ MISTAKES = [
     # wrong values
     (lambda: added(rotation=(0.1, 0, 0)), "euler="),
     (lambda: e3d.Renderer((8, 8), samples=8, antialiasing="ssaa"), "needs antialiasing='msaa'"),
-    (lambda: e3d.uv_sphere(segments=12), "two integers, not 12"),
+    (
+        lambda: e3d.uv_sphere(segments=12),
+        "from pole to pole, not 12",
+    ),
     (lambda: e3d.Renderer(8), "size must be (width, height), not 8"),
     (lambda: e3d.Renderer((8, 8)).render(5), "a mesh or points can be drawn, not int"),
     (lambda: e3d.Scene().add("model.obj"), "'model.obj'"),

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from ....base.files.atomic_write import atomic_write
 from ....base.language import ENGLISH
 from ....errors import DisplayError
 from ....io.output.animation_files import numbered_path
@@ -97,7 +98,8 @@ def write_page(program: Path, output: str, language: str) -> None:
     check_folder(output)
     page = lesson_html(program, language)
     Path(output).parent.mkdir(parents=True, exist_ok=True)
-    Path(output).write_text(page, encoding="utf-8")
+    with atomic_write(output) as file:
+        file.write(page.encode("utf-8"))
 
 
 def show(args: argparse.Namespace, programs: list[Path], number: int, language: str) -> None:

@@ -21,6 +21,7 @@ from ....model.scene.nodes import Node
 from ..render_job import RenderJob, Shot
 from .files import Files
 from .translated_imgui import imgui
+from .translated_imgui import label as labelled
 from .workspace import Workspace
 
 _WHAT = {"picture": "Picture", "turn": "Turn", "motion": "Motion"}
@@ -110,7 +111,7 @@ class RenderDialog:
         if imgui.begin_popup_modal(_TITLE, None, imgui.WindowFlags_.always_auto_resize)[0]:
             self._draw_choices()
             imgui.end_popup()
-        if self._job is not None and not imgui.is_popup_open(_PROGRESS):
+        if self._job is not None and not imgui.is_popup_open(labelled(_PROGRESS)):
             imgui.open_popup(_PROGRESS)
         imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
         if imgui.begin_popup_modal(_PROGRESS, None, imgui.WindowFlags_.always_auto_resize)[0]:

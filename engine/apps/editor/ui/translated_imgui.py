@@ -36,7 +36,6 @@ LABELLED = (
     "input_int",
     "input_int2",
     "input_text",
-    "is_popup_open",
     "label_text",
     "open_popup",
     "radio_button",

@@ -24,8 +24,8 @@ def short_statistics(times: FrameTimes, stats: dict[str, Any]) -> str:
         translated("{ms:.1f} ms to draw", ms=times.drawing_seconds * 1000),
         translated("{drawn:,} of {total:,} triangles", drawn=drawn, total=total),
     ]
-    if times.count > 1 and times.seconds > 0.0:
-        parts.insert(0, translated("{rate:.0f} frames per second", rate=1.0 / times.seconds))
+    if times.rate:
+        parts.insert(0, translated("{rate:.0f} frames per second", rate=times.rate))
     return ", ".join(parts)
 
 
@@ -86,9 +86,7 @@ def _time_lines(times: FrameTimes) -> list[str]:
 
 
 def _rate(times: FrameTimes) -> str:
-    if times.count > 1 and times.seconds > 0.0:
-        return translated("{rate:.1f} fps", rate=1.0 / times.seconds)
-    return translated("one frame")
+    return translated("{rate:.1f} fps", rate=times.rate) if times.rate else translated("one frame")
 
 
 def _entry(name: str, text: str) -> str:

@@ -69,6 +69,11 @@ class FrameTimes:
         return self._mean(2)
 
     @property
+    def rate(self) -> float:
+        """Frames per second; 0 if fewer than two are recent, or none took any time."""
+        return 1.0 / self.seconds if self.count > 1 and self.seconds > 0.0 else 0.0
+
+    @property
     def drawing_seconds(self) -> float:
         """Mean time to draw a recent frame; 0 if there is none."""
         return self._mean(1)

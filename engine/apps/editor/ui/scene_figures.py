@@ -5,8 +5,6 @@ In: the scene's pictures as they are drawn. Out: a line of text.
 
 from __future__ import annotations
 
-import time
-from collections import deque
 from typing import Any
 
 import numpy as np
@@ -18,10 +16,8 @@ from ....model.motion.posed_mesh import PosedMesh
 from ....model.scene.instances import InstancedMesh
 from ....model.scene.scene import Scene
 from ....rendering.frame import Frame
+from ....stage.overlays.frame_times import FrameRate
 from .workspace import Workspace
-
-#: Seconds over which pictures are counted, and after which the view is at rest.
-_PERIOD = 1.0
 
 
 class SceneFigures:
@@ -39,28 +35,23 @@ class SceneFigures:
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
-        self._drawn: deque[float] = deque()
+        self._rate = FrameRate()
         self._seconds = 0.0
         self.shows_rate = False
 
     def note(self, seconds: float) -> None:
         """Note a picture that was just drawn in some seconds."""
         self._seconds = seconds
-        self._drawn.append(time.perf_counter())
+        self._rate.add()
 
     def text(self, frame: Frame) -> str:
         """Return the line for the shown picture."""
-        stats, now = frame.stats, time.perf_counter()
-        while self._drawn and self._drawn[0] < now - _PERIOD:
-            self._drawn.popleft()
-        drawn = len(self._drawn)
-        self.shows_rate = drawn > 1
+        stats, rate = frame.stats, self._rate.value
+        self.shows_rate = rate > 0.0
         held = objects_of(self._workspace.scene)
         beside = max(stats["instances"] - held, 0)  # the grid, and the ground of a look
         parts = [
-            translated("{rate:.0f} fps", rate=drawn / _PERIOD)
-            if self.shows_rate
-            else translated("at rest"),
+            translated("{rate:.0f} fps", rate=rate) if rate else translated("at rest"),
             f"{translated_number(1e3 * self._seconds, '.1f')} ms",
             translated(
                 "{drawn:,} of {count:,} objects drawn",

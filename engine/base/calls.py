@@ -18,8 +18,9 @@ from typing import Any, Literal, TypeVar, Union, cast, get_args, get_origin, is_
 
 import numpy as np
 
-from ..errors import InvalidArgumentError
+from ..errors import InvalidArgumentError, OutOfMemoryError
 from .foreign_names import Kind, hint
+from .memory import is_lack_of_memory
 from .numbers import shown
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -67,6 +68,10 @@ def checks_types(function: Function) -> Function:
         except TypeError as error:
             if _is_of_the_call(error):
                 _raise_hint(function, None, args, kwargs)
+            raise
+        except (OSError, ImportError) as error:  # of a module that is imported when used
+            if is_lack_of_memory(error):
+                raise OutOfMemoryError(f"no memory for {_name(function)}: {error}") from error
             raise
 
     return cast(Function, call)

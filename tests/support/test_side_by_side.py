@@ -2,11 +2,7 @@
 
 import _thread
 import contextvars
-import os
-import subprocess
-import sys
 import threading
-import time
 from pathlib import Path
 
 import pytest
@@ -94,47 +90,3 @@ def test_nothing_waits_for_threads_that_may_not_begin():
         code = "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("#"))
         for name in ("ThreadPoolExecutor(", "threading.Thread(", "threading.Timer("):
             assert name not in code, path
-
-
-LITTLE = """
-import resource, sys, numpy as np, engine3d as e3d
-from PIL import Image
-size = [int(line.split()[1]) for line in open("/proc/self/status") if line.startswith("VmSize")][0]
-e3d.Scene(), e3d.load_scene(b"v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n", format="obj")
-hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-failed = None
-try:
-    resource.setrlimit(resource.RLIMIT_AS, ((size << 10) + int(sys.argv[2]), hard))
-    e3d.load_scene(sys.argv[1])
-except e3d.Engine3DError as error:
-    failed = error
-except MemoryError:
-    pass  # Python's own, where there is no room for one more call
-resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
-assert failed is None or "memory" in str(failed), failed
-"""
-
-
-@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="needs Linux's limits")
-def test_a_model_is_loaded_or_refused_when_memory_is_nearly_gone(tmp_path):
-    import numpy as np
-
-    scene, box = e3d.Scene(), e3d.icosphere(subdivisions=3)
-    images = [np.full((64, 64, 3), n, np.uint8) for n in range(2)]
-    box.materials = [e3d.Material(texture=e3d.Texture(images[0]))]
-    scene.add(box)
-    other = e3d.box()
-    other.materials = [e3d.Material(texture=e3d.Texture(images[1]))]
-    scene.add(other)
-    path = tmp_path / "a.glb"
-    e3d.save_scene(scene, path)
-    for extra in (0, 300_000, 2_000_000):
-        begun = time.monotonic()
-        done = subprocess.run(
-            [sys.executable, "-c", LITTLE, str(path), str(extra)],
-            capture_output=True,
-            text=True,
-            timeout=100,
-        )
-        assert done.returncode == 0, done.stderr
-        assert time.monotonic() - begun < 50

@@ -12,7 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import FileFormatError
-from ...io.formats.images import PILLOW_FORMATS, check_image_size, quiet_pillow
+from ...io.formats.images import (
+    PILLOW_FORMATS,
+    check_image_size,
+    decoding_fault,
+    quiet_pillow,
+)
 from ...io.loaders import load_texture
 from . import png_files
 
@@ -62,7 +67,7 @@ def _decode_by_pillow(data: bytes, path: str) -> Picture:
         raise FileFormatError("not an image of a known format", path) from error
     # For damaged files, Pillow's plugins raise various errors.
     except Exception as error:
-        raise FileFormatError(f"damaged image: {error}", path) from error
+        raise decoding_fault(error, path) from error
 
 
 def image_pixels(image) -> np.ndarray:

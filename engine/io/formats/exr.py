@@ -50,7 +50,7 @@ def read_exr(source: Source) -> NDArray[np.float32]:
                 check_image_size(*_size(header), source.path, source.size)
                 channels = OpenEXR.File(file.name, separate_channels=True).channels()
                 planes = {name: channel.pixels for name, channel in channels.items()}
-        except FileFormatError:
+        except (FileFormatError, MemoryError):
             raise
         except Exception as error:  # the library raises various errors for damaged files
             lines = str(error).replace(file.name, "it").strip().splitlines()

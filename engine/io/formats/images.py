@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..._native.loaders import frozen
+from ...base.memory import is_lack_of_memory
 from ...errors import FileFormatError
 from ...model.materials.textures import MAX_SIDE
 from ..reading.reader_registry import Reader
@@ -111,7 +112,14 @@ def read_image(source: Source) -> np.ndarray:
     # For damaged files, Pillow's plugins raise many types: OSError, SyntaxError, struct.error,
     # IndexError, ...
     except Exception as error:
-        raise FileFormatError(f"damaged image: {error}", source.path) from error
+        raise decoding_fault(error, source.path) from error
+
+
+def decoding_fault(error: Exception, path: str) -> FileFormatError:
+    """Return what a decoder's error says about an image file."""
+    if is_lack_of_memory(error):
+        return FileFormatError("needs more memory than there is", path)
+    return FileFormatError(f"damaged image: {error}", path)
 
 
 @contextlib.contextmanager

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import os
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...base.calls import checks_types, keywords_of
+from ...base.memory import is_lack_of_memory
 from ...base.validation import flag
 from ...errors import FileFormatError, InvalidArgumentError, warn
 from ...model.geometry.creases import CREASE_ANGLE, check_crease_angle
@@ -268,15 +268,9 @@ def _memory_of(source: Source) -> Iterator[None]:
     try:
         yield
     except (MemoryError, ImportError, OSError) as error:
-        # The dynamic loader has no error type of its own for this.
-        is_of_loader = isinstance(error, ImportError) and "failed to map" in str(error)
-        if isinstance(error, MemoryError) or is_of_loader or _is_lack(error):
+        if is_lack_of_memory(error):
             raise FileFormatError("needs more memory than there is", source.path) from error
         raise
-
-
-def _is_lack(error: Exception) -> bool:
-    return getattr(error, "errno", None) == errno.ENOMEM
 
 
 @contextlib.contextmanager

@@ -73,7 +73,7 @@ def _read_here(source: Source, split: bool) -> np.ndarray:
         texture = opengl_basisu.open(source.data)
         check_image_size(texture.width, texture.height, source.path, source.size)
         return texture.transcode("rgba8").data
-    except FileFormatError:
+    except (FileFormatError, MemoryError):
         raise
     # The package has its own exceptions, and passes on C++ exceptions.
     except Exception as error:

@@ -134,6 +134,8 @@ def _unpack_here(source: Source, split: bool) -> dict[int, _Found]:
     for index, data in pickle.loads(source.data).items():
         try:
             mesh = DracoPy.decode(data)
+        except MemoryError:
+            raise
         # DracoPy has its own exception, and passes on C++ exceptions.
         except Exception as error:
             found[index] = str(error)

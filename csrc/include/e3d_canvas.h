@@ -124,7 +124,6 @@ void e3d_outline_alphas(const e3d_outline *outline, e3d_glyph_box box, e3d_cell 
 typedef struct e3d_glyph {
     size_t first; /* its first alpha */
     e3d_glyph_box box;
-    int32_t advance; /* to the next glyph's origin, 1/256 pixel */
 } e3d_glyph;
 
 typedef struct e3d_font {
@@ -134,6 +133,6 @@ typedef struct e3d_font {
 } e3d_font;
 
 /* Draws text; the first line begins at (x, y), its top left corner. `glyphs` are numbers of the font's glyphs; -1 starts a new
- * line. */
-void e3d_canvas_glyphs(const e3d_canvas *canvas, double x, double y, const int32_t *glyphs, size_t length,
-                       const e3d_font *font, e3d_rgba color);
+ * line. `advances` are from each glyph's origin to that of the next one in its line, 1/256 pixel. */
+void e3d_canvas_glyphs(const e3d_canvas *canvas, double x, double y, const int32_t *glyphs, const int32_t *advances,
+                       size_t length, const e3d_font *font, e3d_rgba color);

@@ -1,8 +1,8 @@
 """Makes data/fonts/ of the faces Noto Sans and Noto Sans Mono.
 
 In:  NotoSans-Regular.ttf and NotoSansMono-Regular.ttf, as the Noto project publishes them.
-Out: sans.ttf and mono.ttf: Latin, Greek, Cyrillic, signs and arrows, without hints, kerning and
-     whatever else the canvas doesn't read. This needs fontTools.
+Out: sans.ttf and mono.ttf: Latin, Greek, Cyrillic, signs and arrows, with kerning, without hints
+     and whatever else the canvas doesn't read. This needs fontTools.
 
 Usage: python data/scripts/fonts.py NotoSans-Regular.ttf NotoSansMono-Regular.ttf
 """
@@ -10,10 +10,12 @@ Usage: python data/scripts/fonts.py NotoSans-Regular.ttf NotoSansMono-Regular.tt
 import sys
 from pathlib import Path
 
+from font_kerning import kerning_table
 from fontTools import subset
 from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTFont
+from fontTools.ttLib.tables.DefaultTable import DefaultTable
 
 FOLDER = Path(__file__).parents[1] / "fonts"
 #: First and last characters.
@@ -33,7 +35,7 @@ CHARACTERS = [
     (0x25A0, 0x25CF),
     (0xFFFD, 0xFFFD),
 ]
-UNREAD = ["GDEF", "GPOS", "GSUB", "kern", "DSIG", "gasp"]
+UNREAD = ["GDEF", "GSUB", "DSIG", "gasp"]
 #: Copyright, family, style, licence and its address.
 NAMES = [0, 1, 2, 4, 6, 13, 14]
 
@@ -50,11 +52,21 @@ def draw_turned(font):
             font["glyf"][name] = pen.glyph()
 
 
+def take_kerning(font):
+    """Give a font its pairs as a `kern` table, which is easily read, instead of as GPOS."""
+    pairs = kerning_table(font)
+    if "GPOS" in font:
+        del font["GPOS"]
+    if pairs:
+        font["kern"] = DefaultTable("kern")
+        font["kern"].data = pairs
+
+
 def make(source, target):
     font = TTFont(source, recalcTimestamp=False)
     options = subset.Options(
         hinting=False,
-        layout_features=[],
+        layout_features=["kern"],
         notdef_outline=True,
         name_IDs=NAMES,
         name_languages=[0x409],
@@ -64,6 +76,7 @@ def make(source, target):
     maker.populate(unicodes=[code for low, high in CHARACTERS for code in range(low, high + 1)])
     maker.subset(font)
     draw_turned(font)
+    take_kerning(font)
     font.save(target)
     print(f"{target.name}: {len(font.getGlyphOrder())} glyphs, {target.stat().st_size:,} bytes")
 

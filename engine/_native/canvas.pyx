@@ -130,16 +130,18 @@ cdef class Surface:
             with nogil:
                 e3d_canvas_text(&self.canvas, x, y, &codes[0], length, scale, native_color)
 
-    def glyphs(self, double x, double y, const int32_t[::1] numbers not None, Glyphs font not None,
-               const uint8_t[::1] color not None):
+    def glyphs(self, double x, double y, const int32_t[::1] numbers not None, const int32_t[::1] advances not None,
+               Glyphs font not None, const uint8_t[::1] color not None):
         """Draw glyphs of a font; the caller keeps others from adding to it."""
         cdef e3d_rgba native_color = rgba(color)
         cdef Py_ssize_t k
+        if advances.shape[0] != numbers.shape[0]:
+            raise ValueError(f"{numbers.shape[0]} glyphs have as many advances, not {advances.shape[0]}")
         for k in range(numbers.shape[0]):
             if numbers[k] >= font.count:
                 raise ValueError(f"the font has {font.count} glyphs, not {numbers[k] + 1}")
         if font.count > 0 and numbers.shape[0] > 0:
-            font.draw(&self.canvas, x, y, numbers, native_color)
+            font.draw(&self.canvas, x, y, numbers, advances, native_color)
 
     def outline(self, int x, int y, const int16_t[:, ::1] points not None, const uint8_t[::1] on_curve not None,
                 const int32_t[::1] ends not None, int units, const uint8_t[::1] color not None):
@@ -152,15 +154,14 @@ cdef class Surface:
         outline.shift = 0
         cdef e3d_glyph glyph
         cdef bytearray alphas = bytearray()
-        cdef int32_t number = 0
+        cdef int32_t number = 0, advance = 0
         add_alphas(alphas, &glyph, &outline)
         cdef uint8_t *first = alphas
         cdef e3d_font font
-        glyph.advance = 0
         font.alphas, font.glyphs = first, &glyph
         font.ascent = font.line_height = 0
         with nogil:
-            e3d_canvas_glyphs(&self.canvas, x, y, &number, 1, &font, native_color)
+            e3d_canvas_glyphs(&self.canvas, x, y, &number, &advance, 1, &font, native_color)
 
 
 cdef class Glyphs:
@@ -178,17 +179,16 @@ cdef class Glyphs:
         self.ascent, self.line_height = ascent, line_height
 
     cdef void draw(self, const e3d_canvas *canvas, double x, double y,
-                   const int32_t[::1] numbers, e3d_rgba color) noexcept:
+                   const int32_t[::1] numbers, const int32_t[::1] advances, e3d_rgba color) noexcept:
         cdef uint8_t *alphas = self.alphas
         cdef uint8_t *glyphs = self.glyph_bytes
         cdef e3d_font font
         font.alphas, font.glyphs = alphas, <const e3d_glyph *>glyphs
         font.ascent, font.line_height = self.ascent, self.line_height
-        e3d_canvas_glyphs(canvas, x, y, &numbers[0], numbers.shape[0], &font, color)
+        e3d_canvas_glyphs(canvas, x, y, &numbers[0], &advances[0], numbers.shape[0], &font, color)
 
     def add(self, const int16_t[:, ::1] points not None, const uint8_t[::1] on_curve not None,
-            const int32_t[::1] ends not None, int across, int units_across, int up, int units_up,
-            int advance) -> int:
+            const int32_t[::1] ends not None, int across, int units_across, int up, int units_up) -> int:
         """Draw a glyph at each quarter of a pixel; return its number.
 
         Parameters
@@ -197,8 +197,6 @@ cdef class Glyphs:
             The outline: see `e3d_outline`.
         across, units_across, up, units_up : int
             How many 1/256 pixel so many units of the font are.
-        advance : int
-            To the next glyph's origin, in 1/256 pixel.
         """
         cdef e3d_outline outline = outline_of(points, on_curve, ends)
         cdef int phase
@@ -210,13 +208,12 @@ cdef class Glyphs:
         del self.glyph_bytes[self.count * E3D_GLYPH_PHASES * sizeof(e3d_glyph):]
         for phase in range(E3D_GLYPH_PHASES):
             outline.shift = phase * 256 // E3D_GLYPH_PHASES
-            self.add_phase(&outline, advance)
+            self.add_phase(&outline)
         self.count += 1
         return self.count - 1
 
-    cdef int add_phase(self, const e3d_outline *outline, int advance) except -1:
+    cdef int add_phase(self, const e3d_outline *outline) except -1:
         cdef e3d_glyph glyph
-        glyph.advance = advance
         add_alphas(self.alphas, &glyph, outline)
         self.glyph_bytes.extend((<uint8_t *>&glyph)[:sizeof(e3d_glyph)])
         return 0

@@ -1,6 +1,6 @@
 /* Text in a font of outlines.
  *
- * In:  the alphas of glyphs, which outline.c found; the glyphs of a text by number; a position.
+ * In:  the alphas of glyphs, which outline.c found; the glyphs of a text by number, and how far apart they are; a position.
  * Out: the colour over each pixel, with its alpha times the glyph's.
  */
 #include "canvas_pixels.h"
@@ -26,8 +26,8 @@ static void draw_alphas(const e3d_canvas *canvas, const e3d_font *font, const e3
     }
 }
 
-void e3d_canvas_glyphs(const e3d_canvas *canvas, double x, double y, const int32_t *glyphs, size_t length,
-                       const e3d_font *font, e3d_rgba color)
+void e3d_canvas_glyphs(const e3d_canvas *canvas, double x, double y, const int32_t *glyphs, const int32_t *advances,
+                       size_t length, const e3d_font *font, e3d_rgba color)
 {
     if (!isfinite(x) || !isfinite(y)) {
         return;
@@ -44,6 +44,6 @@ void e3d_canvas_glyphs(const e3d_canvas *canvas, double x, double y, const int32
         const int64_t column = (int64_t)floor_div(quarters, E3D_GLYPH_PHASES);
         const e3d_glyph *glyph = font->glyphs + glyphs[k] * E3D_GLYPH_PHASES + (quarters - column * E3D_GLYPH_PHASES);
         draw_alphas(canvas, font, glyph, column, baseline, color);
-        pen += glyph->advance;
+        pen += advances[k];
     }
 }

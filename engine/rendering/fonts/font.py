@@ -7,11 +7,14 @@ Out: pixels of a canvas, by `Canvas.text`; widths in pixels. All is integer arit
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Iterator
+from functools import cache, cached_property
+from operator import add
 from threading import Lock
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..._native import canvas as native
 from ...base.numbers import real, shown
@@ -21,6 +24,7 @@ from .fitting import most_kept
 from .truetype import TrueType
 
 Face = Literal["sans", "mono"]
+_Units = TypeVar("_Units", int, NDArray[np.int64])
 
 #: By face: where its glyphs are looked for.
 _FACES = {"sans": ("sans", "mono"), "mono": ("mono", "sans")}
@@ -69,8 +73,10 @@ class Font(FixedNames):
         self._parts = round(pixels * _SIZE_PARTS)
         self._line_height = round(_LINE * self.size)
         self._glyphs = native.Glyphs(round(_ASCENT * self.size), self._line_height)
+        # Of each character: its glyph's number, its advance, its places in the kerning.
         self._numbers = {"\n": _NEW_LINE}
         self._advances = {"\n": 0}
+        self._rows, self._columns = {"\n": 0}, {"\n": 0}
         self._pictures: dict[tuple[TrueType, int], tuple[int, int]] = {}
         self._lock = Lock()
 
@@ -91,7 +97,7 @@ class Font(FixedNames):
         string = checked_text(string).expandtabs(_TAB_COLUMNS)
         with self._lock:
             self._make(string)
-            length = sum(map(self._advances.__getitem__, string))
+            length = sum(self._steps(string))
         return -(-length // _PARTS)
 
     def text_size(self, string: str) -> tuple[int, int]:
@@ -127,7 +133,25 @@ class Font(FixedNames):
         with self._lock:
             self._make(string)
             numbers = np.array([self._numbers[character] for character in string], np.int32)
-            surface.glyphs(x, y, numbers, self._glyphs, color)
+            steps = np.fromiter(self._steps(string), np.int32, len(string))
+            surface.glyphs(x, y, numbers, steps, self._glyphs, color)
+
+    def _steps(self, string: str) -> Iterator[int]:
+        """Return how far the pen moves at each character of a text whose glyphs are made."""
+        rows = map(self._rows.__getitem__, string)
+        columns = map(self._columns.__getitem__, string[1:] + "\n")
+        kerning = map(self._kerning.__getitem__, map(add, rows, columns))
+        return map(add, map(self._advances.__getitem__, string), kerning)
+
+    @cached_property
+    def _kerning(self) -> list[int]:
+        """The distances of the face's kerning, in 1/256 pixel."""
+        face = _read(self._face)
+        return _rounded(face.kerning.values, self._unit(face), 1).tolist()
+
+    def _unit(self, face: TrueType) -> tuple[int, int]:
+        """Return how many 1/256 pixel so many units of a face are."""
+        return self._parts * (_PARTS // _SIZE_PARTS), face.units_per_em
 
     def _most(self, line: str, most: int) -> int:
         """Return how many characters of a line fit, at least one."""
@@ -138,15 +162,18 @@ class Font(FixedNames):
         for character in set(string) - self._numbers.keys():
             face, glyph = _glyph_of(character, self._face)
             self._numbers[character], self._advances[character] = self._picture(face, glyph)
+            is_own = face is _read(self._face)
+            self._rows[character] = int(face.kerning.rows[glyph]) if is_own else 0
+            self._columns[character] = int(face.kerning.columns[glyph]) if is_own else 0
 
     def _picture(self, face: TrueType, glyph: int) -> tuple[int, int]:
         """Return the number of a glyph and its advance; characters may share one."""
         if (face, glyph) not in self._pictures:
-            unit = self._parts * (_PARTS // _SIZE_PARTS), face.units_per_em
+            unit = self._unit(face)
             advance = _rounded(face.advance(glyph), unit, _PARTS if self._face == "mono" else 1)
             # Small letters end at a pixel's edge, so that they are sharp.
             high = max(_rounded(face.x_height, unit, _PARTS), _PARTS), face.x_height
-            number = self._glyphs.add(*face.outline(glyph), *unit, *high, advance)
+            number = self._glyphs.add(*face.outline(glyph), *unit, *high)
             self._pictures[face, glyph] = number, advance
         return self._pictures[face, glyph]
 
@@ -189,7 +216,7 @@ def _glyph_of(character: str, face: str) -> tuple[TrueType, int]:
     return _read(face), _MISSING
 
 
-def _rounded(units: int, unit: tuple[int, int], step: int) -> int:
+def _rounded(units: _Units, unit: tuple[int, int], step: int) -> _Units:
     """Return units of a font in 1/256 pixel, rounded to a multiple of a step."""
     numerator, denominator = unit[0], unit[1] * step
     return (2 * units * numerator + denominator) // (2 * denominator) * step

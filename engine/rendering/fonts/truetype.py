@@ -2,7 +2,7 @@
 
 In:  the bytes of a font that comes with engine3d: `glyf` outlines, and a character map of format 4.
      The names of tables and fields are those of the OpenType specification, version 1.9.
-Out: `TrueType`: a glyph's number for each character, its advance, its `Outline`.
+Out: `TrueType`: a glyph's number for each character, its advance, its `Outline`; kerning.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .kerning import no_kerning, read_kerning
 
 _ON_CURVE, _X_SHORT, _Y_SHORT, _REPEAT, _X_SAME, _Y_SAME = (1 << bit for bit in range(6))
 _WORDS, _MORE_COMPONENTS = 1, 32
@@ -35,6 +37,7 @@ class TrueType:
         Height of small letters, in units of the font.
     glyphs : dict
         The number of a glyph by its character's code.
+    kerning : Kerning
     """
 
     def __init__(self, data: bytes) -> None:
@@ -50,6 +53,9 @@ class TrueType:
         self._metrics = self._array("hmtx", ">u2")
         self._metrics_count = self._number("hhea", 34, "H")
         self.glyphs = self._character_map()
+        has_pairs = "kern" in self._tables
+        count = len(self._places) - 1
+        self.kerning = read_kerning(self._bytes("kern")) if has_pairs else no_kerning(count)
 
     def advance(self, glyph: int) -> int:
         """Return how far it is to the next glyph, in units of the font."""
@@ -69,8 +75,11 @@ class TrueType:
         return int(number)
 
     def _array(self, table: str, dtype: str) -> NDArray[np.generic]:
+        return np.frombuffer(self._bytes(table), dtype)
+
+    def _bytes(self, table: str) -> bytes:
         first, size = self._tables[table]
-        return np.frombuffer(self._data[first : first + size], dtype)
+        return self._data[first : first + size]
 
     def _character_map(self) -> dict[int, int]:
         first, _ = self._tables["cmap"]

@@ -39,9 +39,9 @@ static void random_text(random_stream *r, uint8_t *codes, size_t length)
 
 static void draw_glyphs(const e3d_canvas *canvas, random_stream *r, const double *at, const e3d_font *font, e3d_rgba color)
 {
-    int32_t numbers[4 * SHAPES];
-    random_glyphs(r, numbers, 4 * SHAPES);
-    e3d_canvas_glyphs(canvas, at[0], at[1], numbers, 4 * SHAPES, font, color);
+    int32_t numbers[4 * SHAPES], advances[4 * SHAPES];
+    random_glyphs(r, numbers, advances, 4 * SHAPES);
+    e3d_canvas_glyphs(canvas, at[0], at[1], numbers, advances, 4 * SHAPES, font, color);
 }
 
 static void draw_shape(const e3d_canvas *canvas, random_stream *r, const e3d_font *font, e3d_triangle_algorithm fill)

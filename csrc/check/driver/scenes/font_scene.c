@@ -7,6 +7,7 @@ enum { MOST_POINTS = 24,
        MOST_CONTOURS = 3,
        WIDEST = 32767,
        MOST_ADVANCE = 20 * 256,
+       MOST_KERNING = 4 * 256,
        CELLS = (FONT_SIDE + 1) * FONT_SIDE };
 
 /* The memory of an outline, and the outline in it. */
@@ -78,7 +79,6 @@ void make_random_font(random_stream *r, random_font *made)
         if (k % E3D_GLYPH_PHASES == 0)
             make_random_outline(r, &outline);
         outline.outline.shift = k % E3D_GLYPH_PHASES * (256 / E3D_GLYPH_PHASES);
-        glyph->advance = random_below(r, MOST_ADVANCE);
         glyph->first = first;
         glyph->box = e3d_outline_box(&outline.outline);
         memset(cells, 0, sizeof cells);
@@ -89,8 +89,10 @@ void make_random_font(random_stream *r, random_font *made)
     made->font = (e3d_font){made->alphas, made->glyphs, random_below(r, 30), random_below(r, 30)};
 }
 
-void random_glyphs(random_stream *r, int32_t *numbers, size_t length)
+void random_glyphs(random_stream *r, int32_t *numbers, int32_t *advances, size_t length)
 {
-    for (size_t k = 0; k < length; k++)
+    for (size_t k = 0; k < length; k++) {
         numbers[k] = random_below(r, FONT_GLYPHS + 1) - 1;
+        advances[k] = random_below(r, MOST_ADVANCE) - random_below(r, MOST_KERNING);
+    }
 }

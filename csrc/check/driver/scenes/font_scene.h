@@ -22,5 +22,5 @@ typedef struct random_font {
 
 /* Makes a font. Its glyphs are no wider and no higher than FONT_SIDE. */
 void make_random_font(random_stream *r, random_font *made);
-/* Numbers of the font's glyphs, and ends of lines. */
-void random_glyphs(random_stream *r, int32_t *numbers, size_t length);
+/* Numbers of the font's glyphs, and ends of lines; how far the pen moves behind each, also back. */
+void random_glyphs(random_stream *r, int32_t *numbers, int32_t *advances, size_t length);

@@ -6,6 +6,7 @@ Out: pixels of the framebuffer. Names of algorithms and kinds of arguments are e
 """
 
 from e3d_canvas cimport *
+from e3d_window cimport *
 from libc.stdint cimport int16_t, int32_t, int64_t, uint8_t
 from libc.stdlib cimport calloc, free
 
@@ -261,6 +262,22 @@ cdef int check_ends(const int32_t[::1] ends, Py_ssize_t points) except -1:
     if last != points:
         raise ValueError(f"the contours have {last} points, not {points}")
     return 0
+
+
+def copy_to_window(const uint8_t[:, :, ::1] picture not None, uint8_t[:, :, :] shown not None,
+                   bint is_swapped, uint8_t[::1] changed not None) -> None:
+    """Copy a picture to a window's memory, and tell which rows changed: see `e3d_window_copy`."""
+    cdef e3d_canvas target
+    take_picture(shown, E3D_CANVAS_MAX_SIDE, &target)
+    if picture.shape[2] != 4 or (picture.shape[1], picture.shape[0]) != (target.width, target.height):
+        raise ValueError("the window's memory is not as large as the picture")
+    if changed.shape[0] != target.height:
+        raise ValueError(f"{target.height} rows take as many flags, not {changed.shape[0]}")
+    if target.height == 0 or target.width == 0:
+        return
+    with nogil:
+        e3d_window_copy(&picture[0, 0, 0], picture.strides[0], target.pixels, target.stride,
+                        target.width, target.height, is_swapped, &changed[0])
 
 
 def text_size(const uint8_t[::1] codes not None, int scale) -> tuple[int, int]:

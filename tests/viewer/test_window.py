@@ -19,6 +19,7 @@ from engine3d.apps.viewer.sdl import (
     load_sdl,
     refresh_rate,
 )
+from engine3d.apps.viewer.surface_output import SurfaceOutput
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.apps.viewer.window import POINTERS, Window
 from engine3d.stage.overlays.lettering import text_font
@@ -57,14 +58,11 @@ def push_key(symbol, scancode):
 
 def shown_pixels(window):
     """Return what the window shows, read back from SDL."""
-    width, height = window.size
-    pixels = np.empty((height, width, 4), dtype=np.uint8)
-    form = sdl2.SDL_PIXELFORMAT_RGBA32
-    status = sdl2.SDL_RenderReadPixels(
-        window._presenter._renderer, None, form, pixels.ctypes.data_as(ctypes.c_void_p), width * 4
-    )
-    assert status == 0
-    return pixels
+    surface = sdl2.SDL_GetWindowSurface(window._window).contents
+    assert surface.format.contents.format == sdl2.SDL_PIXELFORMAT_RGB888
+    memory = ctypes.string_at(surface.pixels, surface.pitch * surface.h)
+    rows = np.frombuffer(memory, np.uint8).reshape(surface.h, surface.pitch)
+    return rows[:, : 4 * surface.w].reshape(surface.h, surface.w, 4)[..., [2, 1, 0, 3]]
 
 
 def test_the_window_shows_the_bytes_it_is_given(window):
@@ -355,13 +353,13 @@ def test_vertical_sync_keeps_the_screens_rhythm(monkeypatch):
 def fine_window(monkeypatch):
     """A window whose drawable area is twice its size, as on a fine screen of Wayland or macOS."""
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    output_size = sdl2.SDL_GetRendererOutputSize
+    usual = SurfaceOutput.size
 
-    def twice(renderer, width, height):
-        output_size(renderer, width, height)
-        width.value, height.value = 2 * width.value, 2 * height.value
+    def twice(output):
+        width, height = usual.fget(output)
+        return 2 * width, 2 * height
 
-    monkeypatch.setattr(sdl2, "SDL_GetRendererOutputSize", twice)
+    monkeypatch.setattr(SurfaceOutput, "size", property(twice))
     with Window((400, 300), "test", vsync=False) as window:
         window.events()
         yield window

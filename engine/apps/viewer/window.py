@@ -205,6 +205,8 @@ class Window(FixedNames):
         translated = window._translator.translate(event)
         if translated is not None:
             window._held.follow(translated)
+            if isinstance(translated, events.Exposed | events.Resized) and window._presenter:
+                window._presenter.forget()
             window._pending.append(translated)
 
     def __iter__(self) -> Iterator[events.Event]:

@@ -42,7 +42,9 @@ class SurfaceOutput:
     def __init__(self, sdl, window) -> None:
         self._sdl, self._window = sdl, window
         self._picture: tuple[NDArray[np.uint8], str] | None = None
-        self._shown: tuple[int | None, Place] | None = None
+        self._is_new = self._is_lost = False
+        #: The surface's memory, and where in the window the picture was drawn on it.
+        self._drawn: tuple[int | None, Place] | None = None
         self._surface()
 
     @property
@@ -54,32 +56,44 @@ class SurfaceOutput:
     def take(self, pixels: NDArray[np.uint8], order: str) -> None:
         """Take a picture that `show` shows, with byte order ``"rgba"`` or ``"bgra"``.
 
-        It is not copied: a resized window shows it as its pixels are then.
+        It is not copied before: a window of another size shows it as its pixels are then.
         """
-        self._picture = pixels, order
+        self._picture, self._is_new = (pixels, order), True
 
     def show(self, place: Place) -> None:
         """Show the last picture at a place of the window."""
         if self._picture is None:
             return
-        surface, sdl = self._surface(), self._sdl
-        before, self._shown = self._shown, (surface.pixels, place)
-        is_whole = place == (0, 0, *self._picture[0].shape[1::-1]) == (0, 0, surface.w, surface.h)
-        if is_whole and (red := _red(surface)):
-            changed = self._copy(surface, red)
-            bands = _bands(changed) if before == self._shown else [(0, surface.h)]
-        else:
-            self._scale(surface, place)
-            bands = [(0, surface.h)]
-        if bands:
-            rows = [sdl.SDL_Rect(0, first, surface.w, end - first) for first, end in bands]
-            sdl.SDL_UpdateWindowSurfaceRects(
-                self._window, (sdl.SDL_Rect * len(rows))(*rows), len(rows)
-            )
+        surface = self._surface()
+        bands = [(0, surface.h)]
+        before, self._drawn = self._drawn, (surface.pixels, place)
+        if self._is_new or before != self._drawn:
+            changed = self._draw(surface, place)
+            if before == self._drawn and not self._is_lost:
+                bands = _bands(changed)
+        self._is_new = self._is_lost = False
+        self._send(surface, bands)
 
     def forget(self) -> None:
-        """Show all of the next picture: the screen has lost the last one."""
-        self._shown = None
+        """Send all of the next picture: the screen has lost the last one."""
+        self._is_lost = True
+
+    def _draw(self, surface, place: Place) -> NDArray[np.uint8]:
+        """Draw the picture on the surface; return whether each row has changed."""
+        whole = 0, 0, surface.w, surface.h
+        is_whole = place == whole == (0, 0, *self._picture[0].shape[1::-1])
+        if is_whole and (red := _red(surface)):
+            return self._copy(surface, red)
+        self._scale(surface, place)
+        return np.ones(surface.h, np.uint8)
+
+    def _send(self, surface, bands: list[tuple[int, int]]) -> None:
+        """Send bands of rows to the screen."""
+        rects = (self._sdl.SDL_Rect * len(bands))()
+        for rect, (first, end) in zip(rects, bands, strict=True):
+            rect.y, rect.w, rect.h = first, surface.w, end - first
+        if bands:
+            self._sdl.SDL_UpdateWindowSurfaceRects(self._window, rects, len(bands))
 
     def _surface(self) -> Any:
         surface = self._sdl.SDL_GetWindowSurface(self._window)

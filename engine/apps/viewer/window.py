@@ -168,7 +168,7 @@ class Window(FixedNames):
         self._rate.add()
 
     def expose(self) -> None:
-        """Show the last picture again."""
+        """Show the last picture again; a window of another size may show later changes of it."""
         self._opened().expose()
 
     def _opened(self) -> Presenter:

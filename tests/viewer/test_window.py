@@ -12,6 +12,7 @@ import pytest
 import engine3d as e3d
 from engine3d import events
 from engine3d.apps.viewer.icon import FACES, icon
+from engine3d.apps.viewer.presenting.surface_output import SurfaceOutput
 from engine3d.apps.viewer.sdl import (
     BORDER_SECONDS,
     find_screen,
@@ -19,7 +20,6 @@ from engine3d.apps.viewer.sdl import (
     load_sdl,
     refresh_rate,
 )
-from engine3d.apps.viewer.surface_output import SurfaceOutput
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.apps.viewer.window import POINTERS, Window
 from engine3d.stage.overlays.lettering import text_font

@@ -23,7 +23,7 @@ from .held import HeldInput
 from .icon import set_icon
 from .input import Translator, key_name, window_number
 from .pixels import Picture, as_pixels
-from .presenter import Presenter
+from .presenting.presenter import Presenter
 from .screen_scale import screen_scale
 from .sdl import (
     close_video,

@@ -53,7 +53,7 @@ def draw_block(
     """
     scale = scale or text_scale(canvas)
     font, padding = (table_font if is_table else text_font)(scale), scaled(PADDING, scale)
-    around = 2 * padding + scaled(MARGIN, scale)
+    around = 2 * (padding + scaled(MARGIN, scale))
     lines = _fitting(lines, font, canvas.width - around, canvas.height - around)
     if not lines:
         return

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..._native.canvas import copy_to_window
-from ...errors import DisplayError
-from .sdl import last_error
+from ...._native.canvas import copy_to_window
+from ....errors import DisplayError
+from ..sdl import last_error
 from .texture_output import Place
 
 #: More bands of changed rows than these go to the screen as one.

@@ -10,8 +10,8 @@ import ctypes
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import DisplayError
-from .sdl import last_error
+from ....errors import DisplayError
+from ..sdl import last_error
 
 #: Left, top, width and height, in pixels of the window.
 Place = tuple[int, int, int, int]

@@ -11,8 +11,8 @@ import time
 
 import numpy as np
 
-from ...errors import DisplayError
-from .sdl import is_opengl_on_the_cpu, last_error, refresh_rate
+from ....errors import DisplayError
+from ..sdl import is_opengl_on_the_cpu, last_error, refresh_rate
 from .surface_output import SurfaceOutput
 from .texture_output import Place, TextureOutput
 

@@ -43,7 +43,7 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
     if frame._seen is None:
         raise InvalidArgumentError("the frame was not drawn by a Renderer")
     ray = _pixel_ray(frame, x, y)
-    if ray is None:  # outside of what a lens sees
+    if ray is None:
         return None
     near, direction, length, eye = ray
     if not {"object_id", "instance_id", "face_id"} <= set(frame.outputs):
@@ -68,16 +68,25 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
 
 
 def _pixel_ray(frame: Any, x: int, y: int) -> Any:
-    """Return the ray through a pixel's centre from the near plane: origin, direction, length."""
+    """Return the ray through a pixel's centre from the near plane: origin, direction, length.
+
+    None outside of what a lens sees, and where rounding leaves no direction: the camera is so far
+    from the origin, for the distances of its planes, that these are one place.
+    """
     view, _ = frame._seen
     if isinstance(view, LensView):
         return _lens_ray(view, x + 0.5, y + 0.5)
-    world_from_clip = linalg.inverse(view.clip_from_world)
+    try:
+        world_from_clip = linalg.inverse(view.clip_from_world)
+    except InvalidArgumentError:
+        return None
     across = 2.0 * (x + 0.5) / frame.width - 1.0
     upward = 1.0 - 2.0 * (y + 0.5) / frame.height
     end = far_depth(view.camera)
     depths = -1.0, (end - 1.0) * 0.5, end
     near, within, far = (_unproject(world_from_clip, across, upward, z) for z in depths)
+    if (within == near).all():
+        return None
     direction = linalg.normalize(within - near)
     length = math.inf if far is None else float(linalg.dot(far - near, direction))
     return near, direction, length, view.eye

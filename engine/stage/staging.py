@@ -273,6 +273,7 @@ class Staging:
         draw_alone : callable
             Draws a small picture of the model on a transparent background.
         """
+        self._hide_grids()  # they cast no shadow on the ground
         self.choose_theme(view, draw_alone)
         studio, edges = self._studio, self._edges
         is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
@@ -289,7 +290,15 @@ class Staging:
                 studio.lay_ground(self.viewed.bounds, view, light, appearance.cull, mirrors)
             else:
                 studio.hide_ground()
+        if self._grid is not None:
+            self._grid.visible = self.settings.grid
         self.box.follow(view.position(), self.settings.axes_grid and not split)
+
+    def _hide_grids(self) -> None:
+        """Hide what the next frame shows again, if it is to be shown."""
+        self.box.hide()
+        if self._grid is not None:
+            self._grid.visible = False
 
     def choose_theme(self, view: AnyView, draw_alone: Callable[[AnyView], np.ndarray]) -> None:
         """Choose the theme that the model contrasts with, as seen from a view; only once.
@@ -345,8 +354,6 @@ class Staging:
         if shown and self._grid is None:
             self._grid = self.scene.beside.add(self._lines(), name="grid", cast_shadows=False)
             self._grid.receive_shadows = False
-        if self._grid is not None:
-            self._grid.visible = shown
 
     def _lines(self) -> Mesh:
         """Return the grid under the model."""

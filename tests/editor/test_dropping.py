@@ -40,6 +40,13 @@ def test_a_model_becomes_nodes_under_its_name(folder, name):
     assert document.scene.nodes[0] is top
 
 
+def test_a_scene_of_nothing_becomes_a_node_of_nothing(tmp_path):
+    e3d.Scene().save(tmp_path / "empty.json")
+    document = SceneDocument()
+    assert document.do(drop_file(document.scene, tmp_path / "empty.json"))
+    assert [node.name for node in document.scene.nodes] == ["empty"]
+
+
 def test_an_image_is_painted_onto_a_node(folder):
     document = SceneDocument()
     scene = document.scene

@@ -204,6 +204,23 @@ def test_all_is_undone_and_done_again_to_the_bit(seed):
     assert not any("history was cleared" in entry.text for entry in document.console.entries)
 
 
+@pytest.mark.parametrize("how", ["reparent", "group"])
+def test_a_step_done_again_at_another_time_gives_the_same_places(how):
+    document = SceneDocument(small_scene())
+    scene, animator = document.scene, document.animator
+    ball, lamp = map(scene.find, ("ball", "lamp"))
+    animator.spin([lamp, scene.find("group")], period=4.0)
+    animator.seek(0.7)
+    nodes = [ball, lamp]
+    document.do(GroupNodes(scene, nodes) if how == "group" else Reparent(scene, [ball], lamp))
+    animator.seek(0.0)
+    after = scene_text(scene, "/")
+    document.undo()
+    document.redo()
+    animator.seek(0.0)
+    assert scene_text(scene, "/") == after
+
+
 def test_a_drag_is_one_step():
     document = SceneDocument(small_scene())
     ball = document.scene.find("ball")

@@ -137,3 +137,18 @@ def test_instances_are_dressed_alone(document):
     document.undo()
     document.undo()
     assert SceneState(document.scene) == before
+
+
+def test_undoing_keeps_the_order_in_which_materials_are_saved(document):
+    materials = [red(document, name) for name in ("a", "b", "c")]
+    document.do(DiscardMaterial(document.resources, materials[0]))
+    document.undo()
+    assert list(document.resources.kept_materials) == materials
+    box = document.scene.nodes[0]
+    document.do(Dress(document.resources, [box], e3d.Material(name="d"), is_new=True))
+    document.do(Dress(document.resources, [box], materials[1]))
+    names = [material.name for material in document.resources.kept_materials]
+    assert names == ["a", "b", "c", "d"]
+    document.undo()
+    document.undo()
+    assert list(document.resources.kept_materials) == materials

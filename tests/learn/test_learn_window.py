@@ -1,6 +1,7 @@
 """The window of the course: what it does with events, in a window and in a terminal of text."""
 
 import numpy as np
+import pytest
 
 from engine3d import events
 from engine3d.apps.learn.course_session import Session
@@ -86,6 +87,21 @@ def test_an_answer_is_kept_in_sight():
         FakeWindow.size = (1240, 700)
     _, top, typed, end = window.shown
     assert (top != typed).any() and (typed == end).all()
+
+
+@pytest.mark.parametrize("size", [(1600, 200), (320, 120)])
+def test_the_answer_is_reached_in_the_lowest_window(size, monkeypatch):
+    monkeypatch.setattr(FakeWindow, "size", size)
+    window, _ = play(events.Wheel(-1000.0), *keys("4", "9"))
+    *_, end, four, many = window.shown
+    assert (end != four).any() and (four != many).any()
+
+
+@pytest.mark.parametrize("cells", [(80, 3), (80, 2), (80, 1), (1, 1)])
+def test_a_terminal_gets_no_more_lines_than_it_has(cells, monkeypatch):
+    monkeypatch.setattr(FakeTerminal, "cells", cells)
+    window, _ = play(*keys("Right", "H", "H", "End"), kind=FakeTerminal)
+    assert {len(lines) for lines in window.shown} == {cells[1]}
 
 
 def test_a_terminal_gets_lines():

@@ -449,3 +449,14 @@ def test_a_scene_of_any_size_around_the_camera_is_drawn(size):
     camera = scene.add(e3d.PerspectiveCamera(), pose=np.eye(4))
     frame = e3d.Renderer((24, 16), threads=1).render(scene, camera)
     assert frame.color.shape == (16, 24, 4)
+
+
+@pytest.mark.filterwarnings("ignore::engine3d.Engine3DWarning")
+@pytest.mark.parametrize("place", [1e18, 1e25, 1e30])
+def test_what_is_far_away_and_has_no_extent_is_drawn(place):
+    scene = e3d.Scene()
+    scene.add(e3d.Mesh(np.float32([(place, 0, 0), (place, 0, 0), (place, 1, 0)]), [(0, 1, 2)]))
+    scene.add(e3d.DirectionalLight(direction=(1, -1, 0), shadow="map"))
+    camera = e3d.PerspectiveCamera(), e3d.linalg.translation((place, 0, 2))
+    frame = e3d.render(scene, camera, size=(32, 24))
+    assert (frame.color[..., 3] == 255).all()

@@ -275,6 +275,27 @@ def moving():
     return viewed
 
 
+@pytest.mark.parametrize("switch", ["grid", "axes_grid"])
+def test_grids_cast_no_shadow_and_leave_none(switch):
+    _, renderer = staged()
+    with renderer:
+        view = renderer.view()
+        before = renderer.draw(view).color.copy()
+        shadow = shadow_of(renderer).object.materials[0].texture.pixels.copy()
+        if switch == "grid":
+            renderer.staging.show_grid(True)
+        renderer.settings.axes_grid = switch == "axes_grid"
+        assert (renderer.draw(view).color != before).any()
+        view.azimuth += 0.5  # the key light turns with it: the shadow is drawn anew
+        renderer.draw(view)
+        view.azimuth -= 0.5
+        renderer.draw(view)
+        assert (shadow_of(renderer).object.materials[0].texture.pixels == shadow).all()
+        renderer.staging.show_grid(False)
+        renderer.settings.axes_grid = False
+        assert (renderer.draw(view).color == before).all()
+
+
 def test_the_shadow_follows_each_picture_of_an_animation():
     settings = Settings({}, look="studio")
     with ViewRenderer(moving(), settings, SIZE) as renderer:

@@ -1,6 +1,7 @@
 """Sections and parts taken apart: what stays, where it is, whether cuts are closed."""
 
 import math
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -145,6 +146,21 @@ def test_a_part_of_a_mesh_has_only_its_own_vertices():
     mesh = e3d.Mesh.concatenate([e3d.box(), e3d.box()], poses=[at(), at(5)])
     part = with_only(mesh, np.arange(24) >= 12)
     assert part.bounds.tolist() == [[4.5, -0.5, -0.5], [5.5, 0.5, 0.5]]
+
+
+def test_many_parts_cost_no_copies_of_the_whole():
+    count = 300
+    mesh = e3d.Mesh.concatenate([e3d.uv_sphere(0.4, (32, 16))] * count, poses=[at()] * count)
+    assert len(mesh.normals) == len(mesh.positions)  # they are computed once, for all parts
+    faces = np.arange(len(mesh.faces)) < len(mesh.faces) // count
+    tracemalloc.start()
+    try:
+        part = with_only(mesh, faces)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert len(part.faces) == len(mesh.faces) // count
+    assert most < mesh.positions.nbytes
 
 
 def test_instances_are_cut_and_spread_one_by_one():

@@ -167,3 +167,15 @@ def test_which_way_is_up_is_chosen_for_one_model_only(viewer, tmp_path):
     viewer.handle(events.KeyDown("Z", "Z", control=True))
     viewer.opening.open([str(path)])
     assert viewer.view_renderer.staging.up == "+Y" and viewer.view.up == (0, 1, 0)
+
+
+def test_a_click_on_what_is_too_far_away_selects_nothing():
+    scene = e3d.Scene()
+    scene.add(e3d.Mesh(np.float32([(1e30, 0, 0), (1e30, 0, 0), (1e30, 1, 0)]), [(0, 1, 2)]))
+    view_renderer = ViewRenderer(ViewedScene(scene, "far"), Settings({}), SIZE)
+    viewer = Viewer(view_renderer, ScriptedWindow(size=SIZE))
+    for kind in ("perspective", "orthographic"):
+        viewer.view.orthographic = kind == "orthographic"
+        viewer.select(160, 120)
+        viewer.focus(160, 120)
+        assert viewer.selected is None

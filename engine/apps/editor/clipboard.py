@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
+from ...base.language import translated
 from ...errors import FileFormatError
 from ...io.reading.loading import document_of
 from ...io.reading.sources import Source
@@ -60,7 +61,7 @@ class Clipboard:
         return AddNodes(
             scene,
             lambda scene: copy_nodes(scene, dict.fromkeys(roots)),
-            counted("Paste", roots),
+            counted(translated("Paste"), roots),
         )
 
 

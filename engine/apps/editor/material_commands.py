@@ -36,10 +36,11 @@ class KeepMaterial(Command):
         self._resources, self._material = resources, material
 
     def do(self) -> None:
+        self._kept = self._resources.kept
         self._resources.keep(self._material)
 
     def undo(self) -> None:
-        self._resources.drop(self._material)
+        self._resources.kept = self._kept
 
 
 class DiscardMaterial(Command):
@@ -52,10 +53,11 @@ class DiscardMaterial(Command):
         self._resources, self._material = resources, material
 
     def do(self) -> None:
+        self._kept = self._resources.kept
         self._resources.drop(self._material)
 
     def undo(self) -> None:
-        self._resources.keep(self._material)
+        self._resources.kept = self._kept
 
 
 class Dress(Command):
@@ -69,6 +71,8 @@ class Dress(Command):
     material : Material
     slot : int, optional
         The number of the mesh's material that it replaces; all if left out.
+    is_new : bool
+        Whether to list the material, too: the step makes it.
 
     Raises
     ------
@@ -82,6 +86,8 @@ class Dress(Command):
         nodes: Iterable[Node],
         material: Material,
         slot: int | None = None,
+        *,
+        is_new: bool = False,
     ) -> None:
         self.nodes = tuple(node for node in nodes if mesh_of(node) is not None)
         if not self.nodes:
@@ -89,29 +95,28 @@ class Dress(Command):
         name = material.name or translated("a material")
         self.label = translated("Give {name} to {things}", name=name, things=named(self.nodes))
         self._resources, self._material, self._slot = resources, material, slot
+        self._new = [material] if is_new else []
         self._steps: list[SetEach] | None = None
-        self._kept: list[Material] = []
 
     def do(self) -> None:
+        self._kept = self._resources.kept
         if self._steps is None:
             self._steps = self._made()
-            self._kept = self._named()
+            self._listed = [*self._new, *self._named()]
         for step in self._steps:
             step.do()
-        for material in self._kept:
+        for material in self._listed:
             self._resources.keep(material)
 
     def undo(self) -> None:
         for step in reversed(self._steps or []):
             step.undo()
-        for material in self._kept:
-            self._resources.drop(material)
+        self._resources.kept = self._kept
 
     def _named(self) -> list[Material]:
-        """Return the materials with names that may be replaced, and are not kept anyway."""
-        meshes = {mesh for node in self.nodes if (mesh := mesh_of(node)) is not None}
-        held = dict.fromkeys(each for mesh in meshes for each in mesh.materials if each.name)
-        return [each for each in held if each not in self._resources.kept_materials]
+        """Return the materials with names that may be replaced."""
+        meshes = dict.fromkeys(mesh for node in self.nodes if (mesh := mesh_of(node)) is not None)
+        return [each for mesh in meshes for each in mesh.materials if each.name]
 
     def _made(self) -> list[SetEach]:
         """Return a step for each mesh, whose nodes go on sharing what they get."""

@@ -42,8 +42,10 @@ def move_alike(made: Mapping[Node, Node]) -> None:
     Parameters
     ----------
     made : dict of Node to Node
-        The copies, all in one scene, by their originals, all of one scene.
+        The copies, all in one scene, by their originals, all of one scene; may be empty.
     """
+    if not made:
+        return
     original, twin = next(iter(made.items()))
     if original.scene is None or twin.scene is None:
         return

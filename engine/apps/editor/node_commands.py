@@ -146,6 +146,7 @@ class Reparent(Command):
         self._scene, self._parent, self._before = scene, parent, before
         self._keeps = keep_world_pose
         self._places: list[tuple[Node, Node | None, Node | None]] = []
+        self._new: Placements | None = None
 
     def do(self) -> None:
         self._old = Placements(self._scene, self.nodes)
@@ -158,6 +159,9 @@ class Reparent(Command):
         except BaseException:
             self.undo()
             raise
+        if self._new is not None:  # what moves stood elsewhere the first time
+            self._new.put(self._scene)
+        self._new = Placements(self._scene, self.nodes)
 
     def undo(self) -> None:
         for node, parent, sibling in reversed(self._places):
@@ -176,11 +180,13 @@ class GroupNodes(Command):
         parent = self._members[0].parent
         self._add = AddNodes(scene, lambda scene: scene.add(name=name, parent=parent), "")
         self._scene = scene
+        self._reparent: Reparent | None = None
 
     def do(self) -> None:
         self._add.do()
         self.nodes = self._add.nodes
-        self._reparent = Reparent(self._scene, self._members, self.nodes[0])
+        if self._reparent is None:
+            self._reparent = Reparent(self._scene, self._members, self.nodes[0])
         try:
             self._reparent.do()
         except BaseException:

@@ -6,6 +6,7 @@ or an object changes.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -66,6 +67,15 @@ class ResourceList:
     def keep(self, thing: Thing) -> None:
         """Keep a resource in the list even if no node uses it."""
         self._kept[thing] = None
+
+    @property
+    def kept(self) -> tuple[Thing, ...]:
+        """What is kept, in the order in which files hold it; assignable."""
+        return tuple(self._kept)
+
+    @kept.setter
+    def kept(self, things: Iterable[Thing]) -> None:
+        self._kept = dict.fromkeys(things)
 
     @property
     def kept_materials(self) -> tuple[Material, ...]:

@@ -317,31 +317,39 @@ def _text_column(
     """Draw idea, code and exercise; note what is below the window."""
     left, top, right, bottom = box
     type_size, scroll = type_and_scroll
-    room = max(bottom - top, 1)
-    column = Canvas((right - left, 4 * room))
+    room, width = max(bottom - top, 1), right - left
+    _, end = _write_texts(Canvas((width, 1)), session, type_size)  # to know how long it is
+    column = Canvas((width, max(end, room)))
     column.clear(PANEL)
-    pen = _Pen(column, type_size, type_size // 2, right - left - 2 * type_size, type_size)
-    texts, language = session.texts, session.language
-    pen.heading(say("idea", language))
-    pen.paragraph(texts.texts["idea", language])
-    pen.heading(say("code", language))
-    code_top = pen.y
-    pen.code(texts.code, session.step.marked)
-    code_bottom = pen.y
-    pen.y += pen.line // 2
-    pen.heading(say("exercise", language))
-    pen.paragraph(texts.texts["exercise", language])
-    _answer(pen, session)
-    below = max(pen.y + type_size - room, 0)
-    page.overflow = -(-below // pen.line)
-    moved = min(scroll * pen.line, below)
+    (code_top, code_bottom), _ = _write_texts(column, session, type_size)
+    line = font("sans", type_size).line_height
+    below = max(end - room, 0)
+    page.overflow = -(-below // line)
+    moved = min(scroll * line, below)
     _put(canvas.pixels, column.pixels[moved : moved + room], left, top)
     if copy is not None:
         code = max(code_top - moved, 0) + top, min(code_bottom - moved + top, bottom)
         page.places.append(((left, code[0], right, code[1]), copy))
     if moved < below:
-        arrow = Canvas(canvas.pixels)
-        arrow.text(right - 2 * type_size, bottom - pen.line, "↓", ACCENT, font=pen.sans)
+        arrow, sans = Canvas(canvas.pixels), font("sans", type_size)
+        arrow.text(right - 2 * type_size, bottom - line, "↓", ACCENT, font=sans)
+
+
+def _write_texts(column: Canvas, session: Session, type_size: int) -> tuple[tuple[int, int], int]:
+    """Write idea, code and exercise; return where the code begins and ends, and the end of all."""
+    texts, language = session.texts, session.language
+    pen = _Pen(column, type_size, type_size // 2, column.width - 2 * type_size, type_size)
+    pen.heading(say("idea", language))
+    pen.paragraph(texts.texts["idea", language])
+    pen.heading(say("code", language))
+    top = pen.y
+    pen.code(texts.code, session.step.marked)
+    code = top, pen.y
+    pen.y += pen.line // 2
+    pen.heading(say("exercise", language))
+    pen.paragraph(texts.texts["exercise", language])
+    _answer(pen, session)
+    return code, pen.y + type_size
 
 
 def _answer(pen: _Pen, session: Session) -> None:

@@ -46,14 +46,14 @@ def text_page(session: Session, cells: tuple[int, int], scroll: int) -> tuple[li
         body = [_heading(say("end", language)), *_prose(say("after", language), columns)]
     else:
         body = _body(session, columns, rows)
-    room = rows - 2
+    room = max(rows - 2, 0)
     overflow = max(len(body) - room, 0)
     shown = body[min(scroll, overflow) :][:room]
     shown += [""] * (room - len(shown))
     place = "" if session.is_at_end else session.place
     title = session.title[: max(columns - len(place) - 1, 0)]
     head = f"{_HEADING}{title}{RESET}{place:>{max(columns - len(title), 0)}}"
-    return [head, *shown, _prose(say("keys", language), columns)[0]], overflow
+    return [head, *shown, _prose(say("keys", language), columns)[0]][:rows], overflow
 
 
 def _heading(text: str) -> str:

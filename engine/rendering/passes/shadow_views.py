@@ -311,7 +311,8 @@ def _cascades(
     axes = _axes_along(tuple(-part for part in pose[0]))
     margin = shadow_margin(light)
     sides, downs, depths = (_extent(axis, bounds) for axis in axes)
-    step = _rounded_up(depths[1] - depths[0], 1) / 32.0
+    told_apart = max(map(abs, depths)) * _LEAST_PART
+    step = max(_rounded_up(depths[1] - depths[0], 1) / 32.0, told_apart)
     first, last = (
         (math.floor(depths[0] / step) - 1) * step,
         (math.ceil(depths[1] / step) + 1) * step,

@@ -36,6 +36,25 @@ class _Cut(NamedTuple):
     visible: NDArray[np.bool_]
 
 
+class _CutEdges(NamedTuple):
+    """The edges that are cut.
+
+    Attributes
+    ----------
+    ends : (E, 2) int64
+        The mesh's vertices.
+    share : (E,) float64
+        Where the cut is on the way from the first to the second.
+    """
+
+    ends: NDArray[np.int64]
+    share: NDArray[np.float64]
+
+    def some(self, numbers: NDArray[np.int64]) -> _CutEdges:
+        """Return some of them."""
+        return _CutEdges(self.ends[numbers], self.share[numbers])
+
+
 @np.errstate(all="ignore")
 def clipped(mesh: Mesh, plane: NDArray[np.float64]) -> Mesh | None:
     """Return the part of a mesh at the side of a plane where its equation is not negative.
@@ -63,21 +82,26 @@ def clipped(mesh: Mesh, plane: NDArray[np.float64]) -> Mesh | None:
     lines, points = mesh.lines[kept[mesh.lines].all(axis=1)], mesh.points[kept[mesh.points]]
     if not (len(cut.corners) or len(lines) or len(points)):
         return None
-    return _part(mesh, cut, ends, heights, lines.astype(np.int64), points.astype(np.int64))
+    low, high = (heights[ends[:, k]] for k in (0, 1))
+    edges = _CutEdges(ends, low / (low - high))
+    return _part(mesh, cut, edges, lines.astype(np.int64), points.astype(np.int64))
 
 
 def with_only(mesh: Mesh, faces: NDArray[np.bool_]) -> Mesh:
     """Return a mesh with some faces of another, (F,) bool, and no other vertices than theirs."""
     mesh = mesh.with_creases()
-    visible = _visible_edges(mesh)
-    kept = _Cut(mesh.faces[faces].astype(np.int64), np.flatnonzero(faces), visible[faces])
+    rows = np.flatnonzero(faces)
+    kept = _Cut(mesh.faces[rows].astype(np.int64), rows, _visible_edges(mesh, rows))
     nothing = np.zeros(0, np.int64)
-    heights = np.zeros(len(mesh.positions))
-    return _part(mesh, kept, nothing.reshape(0, 2), heights, nothing.reshape(0, 2), nothing)
+    uncut = _CutEdges(nothing.reshape(0, 2), np.zeros(0))
+    return _part(mesh, kept, uncut, nothing.reshape(0, 2), nothing)
 
 
-def _visible_edges(mesh: Mesh) -> NDArray[np.bool_]:
-    return np.ones(mesh.faces.shape, bool) if mesh.edge_visible is None else mesh.edge_visible
+def _visible_edges(mesh: Mesh, faces: NDArray[np.intp] | slice) -> NDArray[np.bool_]:
+    """Return which edges of some faces are visible, (F, 3)."""
+    if mesh.edge_visible is None:
+        return np.ones(mesh.faces[faces].shape, bool)
+    return mesh.edge_visible[faces]
 
 
 def _cut_edges(
@@ -104,7 +128,7 @@ def _faces(
     """Return the faces of a side."""
     inside = kept[mesh.faces]
     count, crossings = inside.sum(axis=1), (numbers >= 0).sum(axis=1)
-    visible = _visible_edges(mesh)
+    visible = _visible_edges(mesh, slice(None))
     whole = np.flatnonzero(count == 3)
     one = np.flatnonzero((count == 1) & (crossings == 2))
     two = np.flatnonzero((count == 2) & (crossings == 2))
@@ -156,24 +180,23 @@ def _on_edge(numbers: NDArray[np.int64]) -> NDArray[np.int64]:
 def _part(
     mesh: Mesh,
     cut: _Cut,
-    ends: NDArray[np.int64],
-    heights: NDArray[np.float64],
+    edges: _CutEdges,
     lines: NDArray[np.int64],
     points: NDArray[np.int64],
 ) -> Mesh:
     """Return the mesh of a side, with the vertices that it uses."""
-    count = len(heights)
+    count = len(mesh.positions)
     corners = np.where(cut.corners < 0, count - 1 - cut.corners, cut.corners)
     used, places = np.unique(
         np.concatenate([corners.reshape(-1), lines.reshape(-1), points]), return_inverse=True
     )
     places = places.reshape(-1)
     faces, rest = places[: corners.size].reshape(-1, 3), places[corners.size :]
-    low, high = (heights[ends[:, k]] for k in (0, 1))
-    share = low / (low - high)
+    own, made = used[used < count], used[used >= count] - count
+    crossed = edges.some(made)
 
     def rows(array: NDArray[Any]) -> NDArray[Any]:
-        return np.concatenate([array, _between(array, ends, share)])[used]
+        return np.concatenate([array[own], _between(array, crossed)])
 
     normals = rows(mesh.normals) if len(mesh.faces) else None
     attributes: dict[str, Any] = {name: rows(array) for name, array in attributes_of(mesh).items()}
@@ -187,16 +210,16 @@ def _part(
             lines=rest[: lines.size].reshape(-1, 2),
             points=rest[lines.size :],
             edge_visible=cut.visible,
-            position_ids=_position_ids(mesh, ends, used),
+            position_ids=_position_ids(mesh, own, crossed.ends),
             name=mesh.name,
             **attributes,
         )
 
 
 def _position_ids(
-    mesh: Mesh, ends: NDArray[np.int64], used: NDArray[np.int64]
+    mesh: Mesh, own: NDArray[np.int64], ends: NDArray[np.int64]
 ) -> NDArray[np.int64] | None:
-    """Return which vertices of a side are one point; cuts of one edge are."""
+    """Return which vertices of a side are one point, its own and those on cut edges."""
     ids = mesh.position_ids
     if ids is None or not len(ids):
         return None
@@ -204,15 +227,13 @@ def _position_ids(
     first = int(ids.max()) + 1
     cuts = first + np.unique(low * first + high, return_inverse=True)[1].reshape(-1)
     numbers: NDArray[np.int64] = np.unique(
-        np.concatenate([ids.astype(np.int64), cuts])[used], return_inverse=True
+        np.concatenate([ids[own].astype(np.int64), cuts]), return_inverse=True
     )[1]
     return numbers.reshape(-1)
 
 
-def _between(
-    array: NDArray[Any], ends: NDArray[np.int64], share: NDArray[np.float64]
-) -> NDArray[Any]:
-    """Return the rows of an array between ends (E, 2), at a share of the way."""
-    low, high = (array[ends[:, k]].astype(np.float64) for k in (0, 1))
-    between = low + (high - low) * share.reshape(-1, *[1] * (array.ndim - 1))
+def _between(array: NDArray[Any], edges: _CutEdges) -> NDArray[Any]:
+    """Return the rows of an array where edges are cut."""
+    low, high = (array[edges.ends[:, k]].astype(np.float64) for k in (0, 1))
+    between = low + (high - low) * edges.share.reshape(-1, *[1] * (array.ndim - 1))
     return (np.rint(between) if array.dtype == np.uint8 else between).astype(array.dtype)

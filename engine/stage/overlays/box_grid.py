@@ -49,6 +49,11 @@ class BoxGrid:
         """Whether the grid is drawn."""
         return self._node is not None and self._node.visible
 
+    def hide(self) -> None:
+        """Hide the grid, until `follow` shows it again."""
+        if self._node is not None:
+            self._node.visible = False
+
     def follow(self, eye: np.ndarray, shown: bool) -> None:
         """Update the grid for a camera's position, (3,) in world space, or hide it."""
         if shown and not np.isfinite([self._grid.low, self._grid.high]).all():
@@ -61,8 +66,9 @@ class BoxGrid:
                 if self._node is None:
                     self._node = self._staged.beside.add(mesh, name=mesh.name, cast_shadows=False)
                 self._node.object, self._far = mesh, far
-        if self._node is not None:
-            self._node.visible = shown
+            self._node.visible = True
+        else:
+            self.hide()
 
     def label(self, frame: Frame, scale: float, theme: Theme, beside: Taken) -> None:
         """Write the numbers of the grid, if it is in the frame, as `AxesGrid.label` does."""

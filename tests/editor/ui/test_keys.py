@@ -5,7 +5,9 @@ import functools
 import pytest
 from editor.ui.editor_hands import do, find, press, settle
 
+import engine3d as e3d
 from engine3d import events
+from engine3d.apps.editor.scene_state import SceneState
 
 
 def test_keys_duplicate_delete_and_undo(editor):
@@ -98,3 +100,17 @@ def test_a_question_hears_the_arrows(editor):
     press(editor, "Right")
     press(editor, "Return")
     assert given == ["two"]
+
+
+def test_a_new_material_of_the_selection_is_one_step(editor):
+    document = editor.workspace.document
+    meshes = [node for node in document.scene.nodes if isinstance(node.object, e3d.Mesh)]
+    before = SceneState(document.scene)
+    for nodes in (meshes[:2], []):
+        document.selection.set(nodes)
+        press(editor, "M", control=True)
+        assert len(document.history.steps) == 1
+        (made,) = [one for one in document.resources.kept_materials if one.name == "material"]
+        assert all(made in node.object.materials for node in nodes)
+        document.undo()
+        assert SceneState(document.scene) == before and document.resources.kept_materials == ()

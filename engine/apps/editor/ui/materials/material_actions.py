@@ -30,10 +30,13 @@ def add(workspace: Workspace, like: Material | None = None) -> Material:
 
 
 def add_to_selected(workspace: Workspace) -> None:
-    """Make a material, and give it to the selected nodes, if there are any."""
-    material = add(workspace)
-    if any(mesh_of(node) is not None for node in workspace.document.selection.nodes):
-        give(workspace, material, workspace.document.selection.nodes)
+    """Make a material, and give it to the selected nodes, if there are any, in one step."""
+    nodes = workspace.document.selection.nodes
+    if any(mesh_of(node) is not None for node in nodes):
+        material = new_material(workspace.resources)
+        workspace.do(Dress(workspace.resources, nodes, material, is_new=True))
+    else:
+        add(workspace)
 
 
 def give(workspace: Workspace, material: Material, nodes, slot: int | None = None) -> None:

@@ -378,8 +378,8 @@ def points_of_disc(ways, cosines, size):
     return x[:, None] * e[:, None] + y[:, None] * f[:, None]
 
 
-def shares(make, kind, softness, **options):
-    """How much of the light reaches every 20th pixel that it lights, positions, normals."""
+def shares(make, kind, softness, step=20, **options):
+    """How much of the light reaches every so many-th pixel that it lights, positions, normals."""
     outputs = ("radiance", "world_position", "world_normal")
     frames = []
     for shadow in ("none", ("exact", softness)):
@@ -387,8 +387,9 @@ def shares(make, kind, softness, **options):
         camera = (e3d.PerspectiveCamera(), pose)
         frames.append(render(scene, camera, size=SIZE, outputs=outputs, **options))
     lit = frames[0].radiance[..., 1] > 1e-4
-    share = frames[1].radiance[lit][::20, 1] / frames[0].radiance[lit][::20, 1].astype(np.float64)
-    return share, frames[0].world_position[lit][::20], frames[0].world_normal[lit][::20]
+    without, within = (frame.radiance[lit][::step, 1].astype(np.float64) for frame in frames)
+    share = within / without
+    return share, frames[0].world_position[lit][::step], frames[0].world_normal[lit][::step]
 
 
 @pytest.mark.parametrize(("make", "softness"), [(still_life, 0.2), (fence, 0.06), (heap, 0.5)])
@@ -411,6 +412,25 @@ def test_soft_lights_like_rays_cast_in_float64(make, softness, kind):
     assert np.abs(share * POINTS - np.rint(share * POINTS)).max() < 1e-3
     assert differ.max() <= 2 and (differ > 0).mean() < 0.02  # rays that graze an edge
     assert ((counts > 0) & (counts < POINTS)).sum() > 3
+
+
+@pytest.mark.parametrize("softness", [0.08, 0.5])
+def test_a_soft_light_throws_no_steps_on_a_round_body(kind, softness):
+    """R198: where light grazes its faces, what lies behind a sample hides none of it."""
+
+    def make(kind, shadow):
+        scene = e3d.Scene(ambient=(0, 0, 0))
+        ball = e3d.uv_sphere(1.0, (16, 8))
+        ball.materials = [e3d.Material(color=(1, 1, 1))]
+        scene.add(ball)
+        scene.add(white(e3d.plane(8.0)), translation=(0, -1, 0))
+        add_light(scene, kind, shadow, (3.2, 2.8, 1.2))
+        return scene, e3d.look_at((1.0, 1.0, 3.6), (0, 0, 0))
+
+    share, _, normals = shares(make, kind, softness, step=1)
+    of_body = normals[:, 1] < 0.999
+    assert of_body.sum() > 200
+    assert share[of_body].min() == 1.0
 
 
 def test_a_light_of_hardly_any_size_shades_as_one_without(kind):

@@ -112,6 +112,16 @@ static int goes_through(const eye *e, const seen *s, float weight[3])
 
 /* ---- R100 ---- */
 
+/* Turns a plane to what lies in a direction. */
+static plane turn_to(const plane *from, const float towards[3])
+{
+    plane out = *from;
+    int away = ref_dot3(out.normal, towards) < 0.0f;
+    for (int c = 0; c < 3 && away; c++)
+        out.normal[c] = 0.0f - out.normal[c];
+    return out;
+}
+
 /* R100 */
 static plane plane_of(const ref_surface *s, const e3d_light *light)
 {
@@ -134,10 +144,7 @@ static plane plane_of(const ref_surface *s, const e3d_light *light)
         out.towards[c] = e3d_light_traits_of(light->kind).has_position ? light->position[c] - s->lit_position[c] : light->to_light[c];
     }
     out.limit = ((share[0] + share[1]) + share[2]) * E3D_PLANE_SLACK;
-    int away = ref_dot3(out.normal, out.towards) < 0.0f;
-    for (int c = 0; c < 3 && away; c++)
-        out.normal[c] = 0.0f - out.normal[c];
-    return out;
+    return turn_to(&out, out.towards);
 }
 
 /* ---- R101 ---- */
@@ -220,8 +227,8 @@ static int turns_away(const ref_surface *s, const plane *plane)
     return s->is_smooth && ref_dot3(s->shading_normal, plane->towards) > 0.0f && ref_dot3(plane->normal, s->shading_normal) < 0.0f;
 }
 
-/* Whether a caster is one through which the ray leaves the sample's own body. */
-static int is_left(const ref_surface *s, const ref_caster *caster, const plane *plane)
+/* Whether a caster is one through which a ray towards a light leaves the sample's own body. */
+static int is_left(const ref_surface *s, const ref_caster *caster, const float towards[3])
 {
     const ref_instance *instance = &s->casters->instances[caster->instance];
     const float (*v)[3] = caster->corner;
@@ -235,7 +242,7 @@ static int is_left(const ref_surface *s, const ref_caster *caster, const plane *
     ref_cross(e, f, m);
     for (int c = 0; c < 3 && instance->turned_round; c++)
         m[c] = 0.0f - m[c];
-    return ref_dot3(m, plane->towards) > 0.0f;
+    return ref_dot3(m, towards) > 0.0f;
 }
 
 /* The place on the smooth body over a sample. */
@@ -273,7 +280,7 @@ static int is_hidden_from(const e3d_light *light, const ref_surface *surface, co
             continue;
         see(&e, caster, &s);
         if (goes_through(&e, &s, weight) && is_above(plane, p, caster, weight) && (!e.is_point || between(weight, s.z) > 0.0f) && !has_hole(casters, caster, weight) &&
-            !(leaves && is_left(surface, caster, plane)))
+            !(leaves && is_left(surface, caster, plane->towards)))
             return 1;
     }
     return 0;
@@ -329,6 +336,7 @@ static disc find_disc(const e3d_light *light, const ref_surface *surface, const 
 typedef struct disc_ray {
     int axis, is_negative;
     float x, y, z, slope[2]; /* of the sample; towards the light */
+    float towards[3];        /* the point, from the sample */
     int ends;                /* whether the light has a position: */
     float end;               /* z of the point */
 } disc_ray;
@@ -347,7 +355,7 @@ static int find_ray(const disc *d, int point, const float p[3], disc_ray *out)
         o[c] = x * d->e[c] + y * d->f[c];
         t[c] = t[c] + o[c];
     }
-    *out = (disc_ray){k, d->is_negative, p[k1], p[k2], height(p[k], d->is_negative), {t[k1] / fabsf(t[k]), t[k2] / fabsf(t[k])}, 0, 0.0f};
+    *out = (disc_ray){k, d->is_negative, p[k1], p[k2], height(p[k], d->is_negative), {t[k1] / fabsf(t[k]), t[k2] / fabsf(t[k])}, {t[0], t[1], t[2]}, 0, 0.0f};
     out->ends = e3d_light_traits_of(d->light->kind).has_position;
     out->end = height(d->light->position[k] + o[k], d->is_negative);
     return is_finite(out->x) && is_finite(out->y) && is_finite(out->z) && is_finite(out->slope[0]) && is_finite(out->slope[1]);
@@ -367,39 +375,48 @@ static int meets(const disc_ray *r, const plane *plane, const float p[3], const 
            !has_hole(casters, caster, weight);
 }
 
-static int is_point_hidden(const disc *d, int point, const ref_surface *surface, const plane *plane, const float p[3], int leaves)
+static int is_ray_hidden(const disc *d, const disc_ray *r, const ref_surface *surface, const plane *plane, const float p[3], int leaves)
 {
     const ref_casters *casters = surface->casters;
-    disc_ray r;
-    if (!find_ray(d, point, p, &r))
-        return 0;
     for (int64_t n = 0; n < casters->count; n++) {
         const ref_caster *caster = &casters->items[n];
-        if (!is_spared(casters, caster, d->light) && meets(&r, plane, p, casters, caster) && !(leaves && is_left(surface, caster, plane)))
+        if (!is_spared(casters, caster, d->light) && meets(r, plane, p, casters, caster) && !(leaves && is_left(surface, caster, r->towards)))
             return 1;
     }
     return 0;
 }
 
-/* R196 */
-static float soft_share(const e3d_light *light, const ref_surface *surface, const plane *plane, int away, const float l[3])
+/* R198: R100 and R194 for one point of the disc. */
+static int is_point_hidden(const disc *d, int point, const ref_surface *surface, const plane *to_middle)
 {
-    const disc d = find_disc(light, surface, plane->towards, l);
     const float *p = surface->lit_position;
     float body[3];
+    disc_ray r;
+    int is_ray = find_ray(d, point, p, &r);
+    const plane plane = turn_to(to_middle, r.towards);
+    int away = turns_away(surface, &plane);
+    if (is_ray && is_ray_hidden(d, &r, surface, &plane, p, away))
+        return 1;
+    if (!away)
+        return 0;
+    find_body(surface, p, body);
+    return find_ray(d, point, body, &r) && is_ray_hidden(d, &r, surface, &plane, body, 0);
+}
+
+/* R196 */
+static float soft_share(const e3d_light *light, const ref_surface *surface, const plane *plane, const float l[3])
+{
+    const disc d = find_disc(light, surface, plane->towards, l);
     int hidden = 0;
-    if (away)
-        find_body(surface, p, body);
     for (int i = 0; i < E3D_LIGHT_POINTS; i++)
-        hidden += is_point_hidden(&d, i, surface, plane, p, away) || (away && is_point_hidden(&d, i, surface, plane, body, 0));
+        hidden += is_point_hidden(&d, i, surface, plane);
     return (float)(E3D_LIGHT_POINTS - hidden) * (1.0f / E3D_LIGHT_POINTS);
 }
 
 float ref_exact_share(const e3d_light *light, const ref_surface *surface, const float l[3])
 {
     const plane plane = plane_of(surface, light);
-    int away = turns_away(surface, &plane);
     if (light->shadow.soft > 0.0f)
-        return soft_share(light, surface, &plane, away, l);
-    return is_hidden(light, surface, &plane, away) ? 0.0f : 1.0f;
+        return soft_share(light, surface, &plane, l);
+    return is_hidden(light, surface, &plane, turns_away(surface, &plane)) ? 0.0f : 1.0f;
 }

@@ -30,15 +30,13 @@ typedef struct disc_rays {
     const e3d_light *light;
     int axis, is_negative, has_position;
     float position[3], towards[3], e[3], f[3]; /* towards: from the position to the light's middle */
-    float normal[3], slack[3], limit;          /* the plane of R100 */
+    float normal[3], slack[3], limit;          /* the plane of R100, turned to the points of the open rays */
     float x, y, z;                             /* of R198 */
-    int is_turned;                             /* R194: */
-    const void *mesh;                          /* whose faces that look to the light don't count, or NULL */
-    const float *left_towards;                 /* with t of the sample */
+    const void *mesh;                          /* R194: whose faces that look to a ray's point don't count for it, or NULL */
     disc_range slope[2];
     float nearest;                             /* hits are surely no less than that along z */
     int has_rays;
-    float slopes[2][E3D_LIGHT_POINTS], ends[E3D_LIGHT_POINTS];
+    float slopes[2][E3D_LIGHT_POINTS], ends[E3D_LIGHT_POINTS], ways[3][E3D_LIGHT_POINTS]; /* ways: from the position to the points */
     /* A bit for each ray: those that are tested, and those that are hidden */
     uint32_t open, hidden;
 } disc_rays;
@@ -97,8 +95,8 @@ static void disc_bound(disc_rays *r)
     r->nearest = r->has_position ? (middle - extent) - (fabsf(middle) + extent) * 0x1p-18f : -INFINITY;
 }
 
-/* Begins the rays from a position, as the disc is seen from the sample. */
-static void disc_begin(disc_rays *r, const float position[3])
+/* Begins some of the rays from a position, as the disc is seen from the sample. */
+static void disc_begin(disc_rays *r, const float position[3], uint32_t rays)
 {
     int k = r->axis;
     for (int c = 0; c < 3; c++) {
@@ -109,7 +107,7 @@ static void disc_begin(disc_rays *r, const float position[3])
     r->y = position[(k + 2) % 3];
     r->z = disc_height(position[k], r->is_negative);
     r->has_rays = 0;
-    r->open = ~r->hidden;
+    r->open = rays & ~r->hidden;
     disc_bound(r);
 }
 
@@ -126,6 +124,7 @@ static void disc_find_rays(disc_rays *r)
         for (int c = 0; c < 3; c++) {
             o[c] = v_add(v_mul(px, v_setf(r->e[axes[c]])), v_mul(py, v_setf(r->f[axes[c]])));
             t[c] = v_add(v_setf(r->towards[axes[c]]), o[c]);
+            v_storef(r->ways[axes[c]] + i, t[c]);
         }
         for (int c = 0; c < 2; c++) {
             vf32 slope = v_div(t[1 + c], exact_abs(t[0]));
@@ -138,6 +137,34 @@ static void disc_find_rays(disc_rays *r)
     }
     r->open &= ~closed;
     r->has_rays = 1;
+}
+
+/* How far the rays of one vector go along a direction. */
+static ALWAYS_INLINE vf32 disc_along(const disc_rays *r, const float direction[3], int i)
+{
+    vf32 way[3], along[3];
+    for (int c = 0; c < 3; c++) {
+        way[c] = v_loadf(r->ways[c] + i);
+        along[c] = v_setf(direction[c]);
+    }
+    return dot_three(along, way);
+}
+
+/* R198: of the rays from the sample, those that go to the other side of its face than the ray to the light's middle. */
+static uint32_t disc_find_behind(disc_rays *r)
+{
+    float size = 0.0f, extent = 0.0f;
+    for (int c = 0; c < 3; c++) {
+        size = size + fabsf(r->normal[c] * r->towards[c]);
+        extent = extent + fabsf(r->normal[c]) * disc_extent(r, c);
+    }
+    if (disc_dot(r->normal, r->towards) > extent + size * 0x1p-18f)
+        return 0;
+    uint32_t behind = 0;
+    disc_find_rays(r);
+    for (int i = 0; i < E3D_LIGHT_POINTS; i += V_LANES)
+        behind |= v_bits(v_lt(disc_along(r, r->normal, i), v_setf(0.0f))) << i;
+    return behind;
 }
 
 /* ---- boxes ---- */
@@ -177,20 +204,19 @@ static ALWAYS_INLINE int disc_is_below(const disc_rays *r, const float low[3], c
 
 /* ---- casters ---- */
 
-/* R194: whether a ray leaves the sample's own body through a caster. */
-static int disc_is_left(const disc_rays *r, uint32_t number)
+/* R194: the way out of the sample's own body through a caster, which hides no point that lies there; 0 for casters of others. */
+static int disc_find_outward(const disc_rays *r, uint32_t number, float out[3])
 {
     const e3d_caster_index *index = r->at->index;
     const float *v = index->world[number];
-    float m[3];
-    if (index->mesh_of(index, number) != r->mesh)
+    if (!r->mesh || index->mesh_of(index, number) != r->mesh)
         return 0;
     for (int c = 0; c < 3; c++) {
         int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
         float own = (v[3 + c1] - v[c1]) * (v[6 + c2] - v[c2]) - (v[3 + c2] - v[c2]) * (v[6 + c1] - v[c1]);
-        m[c] = index->is_mirrored[number] ? 0.0f - own : own;
+        out[c] = index->is_mirrored[number] ? 0.0f - own : own;
     }
-    return disc_dot(m, r->left_towards) > 0.0f;
+    return 1;
 }
 
 /* R101: the heights of a caster's corners above the sample's plane; 0 if it hides nothing. */
@@ -209,8 +235,8 @@ static ALWAYS_INLINE int disc_heights(const disc_rays *r, const float *world, fl
     return rises;
 }
 
-/* Of the rays of one vector, those that a caster hides. */
-static ALWAYS_INLINE uint32_t disc_hits(const disc_rays *r, uint32_t number, int i, const float height[3])
+/* Of the rays of one vector, those that a caster hides; `outward` is NULL or its way out. */
+static ALWAYS_INLINE uint32_t disc_hits(const disc_rays *r, uint32_t number, int i, const float height[3], const float *outward)
 {
     const float *world = r->at->index->world[number];
     int k = r->axis, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
@@ -240,6 +266,8 @@ static ALWAYS_INLINE uint32_t disc_hits(const disc_rays *r, uint32_t number, int
     lanes = v_mand(lanes, v_gt(dot_three(w, h), v_setf(r->limit)));
     if (r->has_position)
         lanes = v_mand(lanes, v_gt(dot_three(w, z), v_loadf(r->ends + i)));
+    if (outward)
+        lanes = v_mandnot(lanes, v_gt(disc_along(r, outward, i), zero));
     if (r->at->index->may_be_open[number] && v_any(lanes))
         lanes = exact_solid(r->at, number, lanes, w);
     return v_bits(lanes);
@@ -270,7 +298,7 @@ static void disc_test(disc_rays *r, uint32_t number)
 {
     const e3d_caster_index *index = r->at->index;
     const float *world = index->world[number];
-    float height[3], low[3], high[3];
+    float height[3], low[3], high[3], outward[3];
     for (int c = 0; c < 3; c++) {
         low[c] = disc_less(disc_less(world[c], world[3 + c]), world[6 + c]);
         high[c] = disc_more(disc_more(world[c], world[3 + c]), world[6 + c]);
@@ -279,13 +307,12 @@ static void disc_test(disc_rays *r, uint32_t number)
         return;
     if (index->any_spared && index->is_spared(index, number, r->light->shadow.exact))
         return;
-    if (r->mesh && disc_is_left(r, number))
-        return;
+    int is_own = disc_find_outward(r, number, outward);
     if (!r->has_rays)
         disc_find_rays(r);
     for (int i = 0; i < E3D_LIGHT_POINTS; i += V_LANES)
         if (r->open >> i & setup_tail(V_LANES))
-            r->hidden |= disc_hits(r, number, i, height) << i & r->open;
+            r->hidden |= disc_hits(r, number, i, height, is_own ? outward : NULL) << i & r->open;
     if (r->open & r->hidden) {
         r->open &= ~r->hidden;
         disc_narrow(r);
@@ -315,8 +342,21 @@ static void disc_walk(disc_rays *r)
 /* What a sample's rays begin with, for a vector of samples. */
 typedef struct disc_vector {
     float position[3][V_LANES], body[3][V_LANES], cosine[V_LANES];
-    uint32_t turned;
+    float lean[V_LANES]; /* R194: the product of the face's normal and that of its vertices; 0 where these do not count */
 } disc_vector;
+
+/* Finds which of some rays are hidden; `mesh` is that of the sample if its face turns away from their points, else NULL. */
+static void disc_cast(disc_rays *r, const float position[3], const float body[3], const void *mesh, uint32_t rays)
+{
+    r->mesh = mesh;
+    disc_begin(r, position, rays);
+    disc_walk(r);
+    if (!mesh)
+        return;
+    r->mesh = NULL;
+    disc_begin(r, body, rays);
+    disc_walk(r);
+}
 
 /* R196: the share of the light's points that nothing hides from one sample of a vector. */
 static float disc_share(const exact_lanes *at, const e3d_light *light, const disc_vector *from, int lane, int32_t surface)
@@ -336,16 +376,24 @@ static float disc_share(const exact_lanes *at, const e3d_light *light, const dis
     for (int c = 0; c < 3 && away; c++)
         r.normal[c] = 0.0f - r.normal[c];
     disc_find_disc(&r, from->cosine[lane]);
-    disc_begin(&r, position);
-    r.left_towards = towards;
-    r.mesh = from->turned >> lane & 1 ? receivers->mesh[surface] : NULL;
-    disc_walk(&r);
-    if (from->turned >> lane & 1) {
-        r.mesh = NULL;
-        disc_begin(&r, body);
-        disc_walk(&r);
+    disc_begin(&r, position, ~0u);
+    const void *mesh = receivers->is_smooth ? receivers->mesh[surface] : NULL;
+    uint32_t behind = disc_find_behind(&r);
+    disc_cast(&r, position, body, from->lean[lane] < 0.0f ? mesh : NULL, ~behind);
+    if (behind) {
+        for (int c = 0; c < 3; c++)
+            r.normal[c] = 0.0f - r.normal[c];
+        disc_cast(&r, position, body, from->lean[lane] > 0.0f ? mesh : NULL, behind);
     }
     return (float)(E3D_LIGHT_POINTS - __builtin_popcount(r.hidden)) * (1.0f / E3D_LIGHT_POINTS);
+}
+
+/* R194: how far faces lean from their vertices' normals, where these look to the light. */
+static vf32 disc_lean(exact_lanes *at, const vf32 normal[3])
+{
+    vf32 zero = v_setf(0.0f);
+    exact_fetch_planes(at);
+    return v_self(v_gt(dot_three(normal, at->towards), zero), dot_three(at->normal, normal), zero);
 }
 
 /* Finds the shares of a light for a vector of samples; where the light adds nothing they are 1. */
@@ -360,17 +408,18 @@ static void disc_find_shares(exact_lanes *at, const e3d_lighting *lighting, cons
     vmask lanes = exact_lit(at, lighting, caster_light->number, batch, i, l, unmapped);
     if (!v_any(lanes))
         return;
-    if (at->receivers->is_smooth)
-        exact_find_turned(at, unmapped, lanes);
     exact_lanes moved = *at;
-    if (at->leaves)
+    vf32 lean = v_setf(0.0f);
+    if (at->receivers->is_smooth) {
+        lean = disc_lean(at, unmapped);
         exact_move(&moved, batch, i);
+    }
     for (int c = 0; c < 3; c++) {
         v_storef(from.position[c], at->position[c]);
         v_storef(from.body[c], moved.position[c]);
     }
     v_storef(from.cosine, dot_three(unmapped, l));
-    from.turned = at->leaves ? v_bits(at->turned) : 0;
+    v_storef(from.lean, lean);
     v_storei(surface, at->surface);
     for (uint32_t left = v_bits(lanes); left; left &= left - 1) {
         int lane = __builtin_ctz(left);

@@ -7,6 +7,7 @@ import pytest
 from plain_picture import Renderer
 
 import engine3d as e3d
+from engine3d import linalg, primitives
 from engine3d.rendering.passes.shadow_maps import ShadowMaps
 
 DOWN = (0.0, -1.0, 0.0)
@@ -449,3 +450,25 @@ def test_a_scene_of_any_size_around_the_camera_is_drawn(size):
     camera = scene.add(e3d.PerspectiveCamera(), pose=np.eye(4))
     frame = e3d.Renderer((24, 16), threads=1).render(scene, camera)
     assert frame.color.shape == (16, 24, 4)
+
+
+@pytest.mark.parametrize("aside", [(0.0, 0.0), (0.3, 0.1), (0.9, 0.2), (0.7, -0.8)])
+@pytest.mark.parametrize("kind", [e3d.PointLight, e3d.SpotLight])
+def test_what_faces_a_light_hides_nothing_of_itself_beside_the_middle_of_a_map(kind, aside):
+    """A map has depths along its axis: in these, such a plane slopes."""
+    place = 3.0 * linalg.normalize(np.array([*aside, -1.0]))
+    facing = e3d.look_at(place, (0, 0, 0))
+    corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    cone = {"outer_cone_angle": 1.2} if kind is e3d.SpotLight else {}
+    radiances = []
+    for shadow in ("none", "map"):
+        scene = e3d.Scene(ambient=(0, 0, 0))
+        # A camera looks along -z: its back is what faces the light.
+        front = linalg.multiply(facing, linalg.rotation_y(math.pi))
+        scene.add(primitives.quad(*corners), pose=front)
+        scene.add(kind(shadow=shadow, **cone))
+        camera = e3d.PerspectiveCamera(0.8), e3d.look_at((0.2, -0.3, 0.1), place)
+        with Renderer((120, 120)) as renderer:
+            radiances.append(renderer.render(scene, camera, outputs=("radiance",)).radiance)
+    assert radiances[0].max() > 0.05
+    np.testing.assert_array_equal(*radiances)

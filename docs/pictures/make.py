@@ -24,6 +24,7 @@ import gallery
 import numpy as np
 from digests import Digests
 from vectors import SIZE, VECTORS
+from windows import WINDOWS
 
 import engine3d as e3d
 from engine3d import linalg
@@ -33,8 +34,6 @@ from engine3d.apps.agents.session import Session
 from engine3d.apps.golden.comparison import compare
 from engine3d.apps.golden.difference_picture import difference_picture
 from engine3d.apps.scenes import load_demo
-from engine3d.apps.viewer.viewer import Viewer
-from engine3d.base.language import speaking
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
@@ -349,63 +348,6 @@ def viewer() -> np.ndarray:
         return view_renderer.draw(view_renderer.view()).color
 
 
-class Screen:
-    """What the viewer asks of a window, and the last picture that it was given."""
-
-    scale, minimised, writes_text, title = 1, False, False, ""
-
-    def __init__(self, size: tuple[int, int]) -> None:
-        self.size = size
-
-    def present(self, pixels: np.ndarray) -> None:
-        self.pixels = pixels.copy()
-
-    def key_at(self, position: str) -> str:
-        return position
-
-
-def in_a_window(name: str, use) -> np.ndarray:
-    """Return the viewer's window with a model, after a function has used the viewer."""
-    size, settings = (1280, 640), Settings({}, look="studio")
-    viewed = open_model(MODELS / name)
-    with ViewRenderer(viewed, settings, size, samples=4, antialiasing="msaa") as view_renderer:
-        screen = Screen(size)
-        viewer = Viewer(view_renderer, screen)
-        viewer.controls.shown = True
-        viewer.draw()
-        use(viewer)
-        viewer.messages.said = ""
-        viewer.draw()
-        return screen.pixels
-
-
-def viewer_help() -> np.ndarray:
-    """The list of all commands, with what they are at present."""
-
-    def open_list(viewer: Viewer) -> None:
-        viewer.perform("toggle_edges")
-        viewer.perform("toggle_help")
-
-    return in_a_window("train.asc", open_list)
-
-
-def viewer_bar() -> np.ndarray:
-    """The bar with an open menu, and the ball of axes."""
-
-    def open_menu(viewer: Viewer) -> None:
-        viewer.perform("cycle_wireframe")
-        button = next(one for one in viewer.controls.buttons if one.text == "View")
-        viewer.controls.open_menu(button)
-
-    return in_a_window("island.obj", open_menu)
-
-
-def french() -> np.ndarray:
-    """The list of all commands in French."""
-    with speaking("fr"):
-        return in_a_window("island.obj", lambda viewer: viewer.perform("toggle_help"))
-
-
 def city() -> np.ndarray:
     """The city as one who walks sees it, and from above."""
     tiles = []
@@ -569,9 +511,7 @@ PICTURES = {
     "mirrors": mirrors,
     "lenses": lenses,
     "viewer": viewer,
-    "viewer_help": viewer_help,
-    "viewer_bar": viewer_bar,
-    "french": french,
+    **WINDOWS,
     "city": city,
     "impostors": impostors,
     "golden": golden,
@@ -586,7 +526,8 @@ PICTURES = {
 #: Those that are compressed, of which drawn.json has digests.
 SMALL = (
     *("beside_lines", "models", "mirrors", "lenses", "sheet", "agents", "sensors"),
-    *("city", "impostors", "robot", "viewer_help", "viewer_bar"),
+    *("city", "impostors", "robot"),
+    *WINDOWS,
     *gallery.programs(),
 )
 QUALITY = 82

@@ -11,19 +11,17 @@ FOLDER = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 MAX_BYTES = 2_500_000
 
 
-def check(backend):
-    return subprocess.run(
-        [sys.executable, FOLDER / "make.py", "--check"],
-        env=os.environ | {"ENGINE3D_BACKEND": backend},
+@pytest.mark.slow
+@pytest.mark.parametrize("program", ["make.py", "screens.py"])
+def test_pictures_are_what_the_engine_draws(program):
+    run = subprocess.run(
+        [sys.executable, FOLDER / program, "--check"],
+        env=os.environ | {"ENGINE3D_BACKEND": "auto"},
         capture_output=True,
         text=True,
     )
-
-
-@pytest.mark.slow
-def test_pictures_are_what_the_engine_draws():
-    run = check("auto")
-    assert run.returncode == 0, f"{run.stderr}\nto draw them again: python docs/pictures/make.py"
+    again = f"to draw them again: python docs/pictures/{program}"
+    assert run.returncode == 0, f"{run.stderr}\n{again}"
 
 
 def test_pictures_are_small():

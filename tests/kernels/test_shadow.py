@@ -62,21 +62,30 @@ def project(shadow, place, at, number):
     return x, y, z, np.where((at[2] > 0) & inside(shadow, x, y), number, -1)
 
 
+def sine_of(cosine):
+    return np.sqrt(greatest(ONE - cosine * cosine, ZERO))
+
+
+def axis_of(q):
+    """Which component is the greatest, x before y before z."""
+    a, b, c = map(np.abs, q)
+    return np.where((a >= b) & (a >= c), 0, np.where(b >= c, 1, 2))
+
+
 def place_spot(shadow, maps, q, normal, sine):
     at = [dot(q, axis) for axis in shadow["axes"]]
     along = [dot(normal, axis) for axis in shadow["axes"]]
-    shift = shift_of(shadow, at[2] * maps[0]["texel"], sine)
+    shift = shift_of(shadow, at[2] * maps[0]["texel"], greatest(sine, sine_of(along[2])))
     moved = [a + n * shift for a, n in zip(at, along, strict=True)]
     return project(shadow, maps[0], moved, 0)
 
 
 def place_point(shadow, maps, q, normal, sine):
     most = greatest(greatest(np.abs(q[0]), np.abs(q[1])), np.abs(q[2]))
-    shift = shift_of(shadow, most * maps[0]["texel"], sine)
+    tilt = sine_of(np.choose(axis_of(q), normal))
+    shift = shift_of(shadow, most * maps[0]["texel"], greatest(sine, tilt))
     p = [a + n * shift for a, n in zip(q, normal, strict=True)]
-    a, b, c = map(np.abs, p)
-    by_x = (a >= b) & (a >= c)
-    axis = np.where(by_x, 0, np.where(b >= c, 1, 2))
+    axis = axis_of(p)
     face = 2 * axis + (np.choose(axis, p) < 0)
     signed = {1: p, -1: [ZERO - component for component in p]}
     right = np.choose(face, [signed[sign][axis] for axis, sign in RIGHT])
@@ -113,8 +122,7 @@ def reached_by(light, maps, depths, position, normal, direction):
     shadow = light["shadow"]["maps"]
     of = maps[shadow["first"] : shadow["first"] + shadow["count"]]
     used = depths[: shadow["count"] * shadow["size"] ** 2]
-    cosine = dot(normal, direction)
-    sine = np.sqrt(greatest(ONE - cosine * cosine, ZERO))
+    sine = sine_of(dot(normal, direction))
     if light["kind"] == DIRECTIONAL:
         place = place_directional(shadow, of, position, normal, sine)
     else:

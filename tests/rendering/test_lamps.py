@@ -5,6 +5,9 @@ import pytest
 from plain_picture import Renderer, render
 
 import engine3d as e3d
+from engine3d.apps.scenes import load_demo
+from engine3d.stage.stage_settings import Settings
+from engine3d.stage.view_renderer import ViewRenderer
 
 SIZE = (64, 48)
 GLOW = e3d.Material(color=(0, 0, 0), emissive=e3d.linear(1.0, 0.8, 0.4))
@@ -86,6 +89,32 @@ def test_a_ball_that_glows_lets_its_light_pass(lamp, shadow):
     assert (drawn(scene) == lit).all()
     dark, _ = room(lamp, shadow, e3d.Material(color=(0, 0, 0)))
     assert drawn(dark).mean() < 0.97 * lit.mean()  # what does not glow keeps it in
+
+
+@pytest.mark.parametrize("shadow", SHADOWS)
+def test_an_unlit_ball_lets_the_light_below_it_in_the_tree_pass(shadow):
+    unlit = e3d.Material(color=(1.0, 0.8, 0.5), unlit=True)
+    scene, ball = room(child, shadow, unlit)
+    lit = drawn(scene)
+    ball.cast_shadows = False
+    assert (drawn(scene) == lit).all()
+    scene, ball = room(same_place, shadow, unlit)
+    shut = drawn(scene)
+    ball.cast_shadows = False
+    assert (drawn(scene) != shut).any()  # a room that was scanned with its light is no lamp
+
+
+def test_lamps_of_the_built_in_scene_let_their_light_pass():
+    pictures = []
+    for shadow in ("none", "exact"):
+        viewed = load_demo("shapes")
+        settings = Settings({}, shadow=shadow)
+        with ViewRenderer(viewed, settings, (120, 68)) as renderer:
+            pictures.append(renderer.draw(renderer.view(), 0.0).color)
+    # What hides no light from itself is as bright as without shadows: here most of the picture.
+    darker = pictures[1].astype(int).sum(axis=2) < 0.7 * pictures[0].astype(int).sum(axis=2)
+    seen = (pictures[0][..., :3] > 30).any(axis=2)
+    assert (darker & seen).sum() < 0.1 * seen.sum()
 
 
 @pytest.mark.parametrize("shadow", SHADOWS)

@@ -7,6 +7,7 @@ import pytest
 from plain_picture import Renderer
 
 import engine3d as e3d
+from engine3d import linalg, primitives
 from engine3d.rendering.passes.shadow_maps import ShadowMaps
 
 DOWN = (0.0, -1.0, 0.0)
@@ -460,3 +461,25 @@ def test_what_is_far_away_and_has_no_extent_is_drawn(place):
     camera = e3d.PerspectiveCamera(), e3d.linalg.translation((place, 0, 2))
     frame = e3d.render(scene, camera, size=(32, 24))
     assert (frame.color[..., 3] == 255).all()
+
+
+@pytest.mark.parametrize("aside", [(0.0, 0.0), (0.3, 0.1), (0.9, 0.2), (0.7, -0.8)])
+@pytest.mark.parametrize("kind", [e3d.PointLight, e3d.SpotLight])
+def test_what_faces_a_light_hides_nothing_of_itself_beside_the_middle_of_a_map(kind, aside):
+    """A map has depths along its axis: in these, such a plane slopes."""
+    place = 3.0 * linalg.normalize(np.array([*aside, -1.0]))
+    facing = e3d.look_at(place, (0, 0, 0))
+    corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    cone = {"outer_cone_angle": 1.2} if kind is e3d.SpotLight else {}
+    radiances = []
+    for shadow in ("none", "map"):
+        scene = e3d.Scene(ambient=(0, 0, 0))
+        # A camera looks along -z: its back is what faces the light.
+        front = linalg.multiply(facing, linalg.rotation_y(math.pi))
+        scene.add(primitives.quad(*corners), pose=front)
+        scene.add(kind(shadow=shadow, **cone))
+        camera = e3d.PerspectiveCamera(0.8), e3d.look_at((0.2, -0.3, 0.1), place)
+        with Renderer((120, 120)) as renderer:
+            radiances.append(renderer.render(scene, camera, outputs=("radiance",)).radiance)
+    assert radiances[0].max() > 0.05
+    np.testing.assert_array_equal(*radiances)

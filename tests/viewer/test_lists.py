@@ -60,6 +60,32 @@ def seen(viewer):
     return {nodes[number] for number in np.unique(frame.object_id).tolist() if number >= 0}
 
 
+def test_keys_choose_objects_and_materials():
+    viewer = make_viewer()
+    for key in ("O", "Down", "Return"):
+        press(viewer, key)
+    assert "ball" not in seen(viewer) and "box" in seen(viewer)
+    press(viewer, "Return")
+    press(viewer, "Return", shift=True)
+    assert seen(viewer) == {"ball"}
+    press(viewer, "Home")
+    assert viewer.panel.chosen == 0
+    press(viewer, "End")
+    assert viewer.panel.chosen == len(viewer.panel.rows()) - 1
+    press(viewer, "W")  # a command, not a letter of a filter
+    assert viewer.view_renderer.appearance.wireframe is not None and viewer.panel is not None
+
+
+def test_keys_zoom_as_the_wheel_does():
+    viewer = make_viewer()
+    first = viewer.view.distance
+    press(viewer, "+", control=True)
+    assert viewer.view.distance < first
+    for key in ("=", "-", "-"):
+        press(viewer, key, control=True)
+    assert viewer.view.distance == pytest.approx(first)
+
+
 def colors(viewer):
     frame = viewer.view_renderer.draw(viewer.view)
     return {

@@ -21,10 +21,16 @@ static float shift_of(const e3d_light_maps *shadow, float texel, float sine)
     return shadow->normal_bias + (reach * texel) * (sine + E3D_SHADOW_SLACK);
 }
 
-static float sine_of(const float normal[3], const float l[3])
+/* R91 */
+static float sine_of(float c) { return sqrtf(ref_max(1.0f - c * c, 0.0f)); }
+
+/* x before y before z */
+static int greatest_of(const float v[3])
 {
-    float c = ref_dot3(normal, l);
-    return sqrtf(ref_max(1.0f - c * c, 0.0f));
+    float a = fabsf(v[0]), b = fabsf(v[1]), c = fabsf(v[2]);
+    if (a >= b && a >= c)
+        return 0;
+    return b >= c ? 1 : 2;
 }
 
 static int is_inside(const e3d_light_maps *shadow, float x, float y)
@@ -76,7 +82,7 @@ static place place_ahead(const e3d_light_maps *shadow, const e3d_shadow_map *map
     float at[3], along[3];
     turn(shadow, p, at);
     turn(shadow, normal, along);
-    float shift = shift_of(shadow, at[2] * map->texel, sine);
+    float shift = shift_of(shadow, at[2] * map->texel, ref_max(sine, sine_of(along[2])));
     for (int k = 0; k < 3; k++)
         at[k] = at[k] + along[k] * shift;
     return project(shadow, map, at, 0);
@@ -90,13 +96,10 @@ static const int FACE_SIGNS[6][2] = {{1, -1}, {-1, -1}, {1, -1}, {1, 1}, {-1, -1
 static place place_cube(const e3d_light_maps *shadow, const e3d_shadow_map *map, const float p[3], const float normal[3], float sine)
 {
     float most = ref_max(ref_max(fabsf(p[0]), fabsf(p[1])), fabsf(p[2])), moved[3], at[3];
-    float shift = shift_of(shadow, most * map->texel, sine);
+    float shift = shift_of(shadow, most * map->texel, ref_max(sine, sine_of(normal[greatest_of(p)])));
     for (int k = 0; k < 3; k++)
         moved[k] = p[k] + normal[k] * shift;
-    float a = fabsf(moved[0]), b = fabsf(moved[1]), c = fabsf(moved[2]);
-    int axis = b >= c ? 1 : 2;
-    if (a >= b && a >= c)
-        axis = 0;
+    int axis = greatest_of(moved);
     int face = 2 * axis + (moved[axis] < 0.0f);
     for (int k = 0; k < 2; k++) {
         float v = moved[FACE_AXES[face][k]];
@@ -165,7 +168,7 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
 {
     const e3d_light *light = &frame->lights[n];
     const float *normal = surface->shading_normal;
-    float p[3], sine = sine_of(normal, l);
+    float p[3], sine = sine_of(ref_dot3(normal, l));
     if (surface->instance->draw->unshadowed)
         return 1.0f;
     if (light->shadow.kind == E3D_SHADOW_EXACT)

@@ -174,6 +174,18 @@ orbit_left, orbit_right = _turning(-ORBIT_STEP, 0.0), _turning(ORBIT_STEP, 0.0)
 orbit_down, orbit_up = _turning(0.0, -ORBIT_STEP), _turning(0.0, ORBIT_STEP)
 
 
+def zoom_in(viewer, step: int) -> None:
+    """Approach what the camera looks at, as by a step of the wheel."""
+    if viewer.walker is None:
+        viewer.orbit.dolly(1.0)
+
+
+def zoom_out(viewer, step: int) -> None:
+    """Recede from what the camera looks at, as by a step of the wheel."""
+    if viewer.walker is None:
+        viewer.orbit.dolly(-1.0)
+
+
 def _turn_up(viewer, up: str) -> None:
     if viewer.walker is not None:
         viewer.toggle_walking()

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ...base.language import translated
 from ...errors import printable
-from .list_panels import Panel
+from .list_panels import ChoosingPanel
 
 if TYPE_CHECKING:
     from .viewer import Viewer
 
 
-class FilteredPanel(Panel):
+class FilteredPanel(ChoosingPanel):
     """A filtered list.
 
     Attributes
@@ -25,24 +24,15 @@ class FilteredPanel(Panel):
     def __init__(self, viewer: Viewer):
         super().__init__(viewer)
         self.filter = ""
-        self.chosen = 0
 
     def heads(self, left_out: int) -> list[str]:
         return [*super().heads(left_out), translated("filter: {text}_", text=self.filter)]
-
-    def choices(self) -> Sequence[int]:
-        """Return the numbers of the rows that can be chosen."""
-        return range(len(self.rows()))
 
     def key(self, event) -> bool:
         """Handle all keys but those with Ctrl and the window's own, such as F11."""
         if event.control:
             return False
-        if event.key in ("Up", "Down", "PageUp", "PageDown", "Home", "End"):
-            self._move(event.key)
-        elif event.key in ("Return", "Enter", "Keypad Enter"):
-            self._press_chosen(event.shift)
-        elif event.key == "Backspace":
+        if event.key == "Backspace":
             self._rub_out()
         elif event.key == "Tab":
             self._change_list()
@@ -52,18 +42,6 @@ class FilteredPanel(Panel):
         self.viewer.redraw_controls()
         return True
 
-    def _move(self, key: str) -> None:
-        """Choose another row, by a key."""
-        choices = self.choices()
-        if not choices:
-            return
-        last = len(choices) - 1
-        steps = {"Up": -1, "Down": 1, "PageUp": -self._fit, "PageDown": self._fit}
-        steps |= {"Home": -last, "End": last}
-        now = choices.index(self.chosen) if self.chosen in choices else 0
-        self.chosen = choices[min(max(0, now + steps[key]), last)]
-        self._follows = True
-
     def type(self, text: str) -> None:
         self.set_filter(self.filter + printable(text))
 
@@ -72,10 +50,6 @@ class FilteredPanel(Panel):
         self.filter, self._follows = text, True
         self.chosen = next(iter(self.choices()), 0)
         self.viewer.redraw_controls()
-
-    def _press_chosen(self, alone: bool) -> None:
-        if self.chosen in self.choices():
-            self.press(self.chosen, alone)
 
     def _rub_out(self) -> None:
         self.set_filter(self.filter[:-1])

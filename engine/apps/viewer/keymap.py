@@ -75,6 +75,8 @@ SECTIONS = {
         Binding(("Shift+Right",), "orbit_right", "turn right"),
         Binding(("Shift+Up",), "orbit_up", "turn up"),
         Binding(("Shift+Down",), "orbit_down", "turn down"),
+        Binding(("Ctrl++", "Ctrl+="), "zoom_in", "zoom in"),
+        Binding(("Ctrl+-",), "zoom_out", "zoom out"),
         Binding(("Ctrl+Y",), "turn_y_up", "Y is up (Shift: -Y)", now.up_axis("Y")),
         Binding(("Ctrl+Z",), "turn_z_up", "Z is up (Shift: -Z)", now.up_axis("Z")),
         Binding(("R", "Return", "Enter"), "reset_view", "reset"),
@@ -145,7 +147,16 @@ WALKING_GESTURES = (
     ("Tab Escape", "orbit again"),
 )
 #: Actions that repeat while their key is held.
-REPEATED = ("orbit_left", "orbit_right", "orbit_up", "orbit_down", "later", "earlier")
+REPEATED = (
+    "orbit_left",
+    "orbit_right",
+    "orbit_up",
+    "orbit_down",
+    "later",
+    "earlier",
+    "zoom_in",
+    "zoom_out",
+)
 
 _ACTIONS = {key: binding.action for binding in BINDINGS for key in binding.keys}
 #: Commands by signs that some layouts type with Shift and another key.

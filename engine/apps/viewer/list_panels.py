@@ -1,10 +1,11 @@
-"""Clickable lists over the picture: objects and materials.
+"""Lists over the picture: objects and materials.
 
-In: a viewer, clicks on rows, the wheel. Out: the rows, drawn in a corner.
+In: a viewer, clicks on rows, the wheel, keys. Out: the rows, drawn in a corner.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...base.language import translated, translated_number
@@ -208,11 +209,50 @@ class Panel:
         self.viewer.panel = None
 
 
-class ObjectPanel(Panel):
+class ChoosingPanel(Panel):
+    """A list whose rows keys choose."""
+
+    def __init__(self, viewer: Viewer):
+        super().__init__(viewer)
+        self.chosen = 0
+
+    def choices(self) -> Sequence[int]:
+        """Return the numbers of the rows that can be chosen."""
+        return range(len(self.rows()))
+
+    def key(self, event) -> bool:
+        """Choose a row, or press the chosen one: with Shift alone."""
+        if event.control:
+            return False
+        if event.key in ("Up", "Down", "PageUp", "PageDown", "Home", "End"):
+            self._move(event.key)
+        elif event.key in ("Return", "Enter", "Keypad Enter"):
+            if self.chosen in self.choices():
+                self.press(self.chosen, event.shift)
+                self.viewer.redraw()
+        elif not super().key(event):
+            return False
+        self.viewer.redraw_controls()
+        return True
+
+    def _move(self, key: str) -> None:
+        """Choose another row, by a key."""
+        choices = self.choices()
+        if not choices:
+            return
+        last = len(choices) - 1
+        steps = {"Up": -1, "Down": 1, "PageUp": -self._fit, "PageDown": self._fit}
+        steps |= {"Home": -last, "End": last}
+        now = choices.index(self.chosen) if self.chosen in choices else 0
+        self.chosen = choices[min(max(0, now + steps[key]), last)]
+        self._follows = True
+
+
+class ObjectPanel(ChoosingPanel):
     """The objects of the scene."""
 
     title = "Objects"
-    hint = "click: hide, show; right: alone"
+    hint = "click, Enter: hide, show; right, Shift: alone"
 
     def rows(self) -> list[Row]:
         return [_row(entry) for entry in self.viewer.view_renderer.visibility.objects()]
@@ -222,11 +262,11 @@ class ObjectPanel(Panel):
         self.viewer.inspector.arrange()  # what is hidden has no cut
 
 
-class MaterialPanel(Panel):
+class MaterialPanel(ChoosingPanel):
     """The materials of the scene."""
 
     title = "Materials"
-    hint = "click: hide, show; right: alone"
+    hint = "click, Enter: hide, show; right, Shift: alone"
 
     def rows(self) -> list[Row]:
         return [_row(entry) for entry in self.viewer.view_renderer.visibility.materials()]

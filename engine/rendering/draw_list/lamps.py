@@ -4,8 +4,8 @@ In: an up-to-date scene, and one of its point or spot lights. Out: the slots of 
 shadow of this light, though they cast those of other lights.
 
 A bulb would otherwise block the light inside it. A mesh whose box contains the light lets it pass
-if it emits light and its node is above or below that of the light in the tree; or, wherever it is
-in the tree, if it emits all over and the light is in the middle half of its box.
+if it emits light, or is unlit, and its node is above or below that of the light in the tree; or,
+wherever it is in the tree, if it emits all over and the light is in the middle half of its box.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def lamp_slots(data: AnyData, light: int, place: Sequence[float]) -> tuple[int, 
     for slot in np.flatnonzero(holds).tolist():
         shape = objects[columns["object"][slot]]
         materials = getattr(shape, "mesh", shape).materials
-        if any(map(_emits, materials)):
+        if any(_emits(one) or one.unlit for one in materials):
             middle, size = (low[slot] + high[slot]) / 2, high[slot] - low[slot]
             is_amid = bool((np.abs(place - middle) <= size / 4).all())
             is_kin = _is_above(arrays, slot, light) or _is_above(arrays, light, slot)

@@ -8,7 +8,7 @@
 
 /* Samples in the light's axes: right, down and ahead; and what one step along the normal adds to these. */
 typedef struct shadow_lanes {
-    vf32 at[3], along[3], sine; /* sine: of the angle between the normal and the light */
+    vf32 at[3], along[3], sine; /* sine: of the angle between the normal and the direction to the light */
 } shadow_lanes;
 
 /* Places in the shadow maps: column and row in texels, the depth to compare, the number of the map, and which samples are in
@@ -19,7 +19,7 @@ typedef struct shadow_place {
     vmask inside;
 } shadow_place;
 
-/* R91: the sine of the angle between light and normal, from its cosine. */
+/* R91: the sine of an angle with the normal, from its cosine. */
 static ALWAYS_INLINE vf32 shadow_sine(vf32 c)
 {
     return v_sqrt(v_max(v_sub(v_setf(1.0f), v_mul(c, c)), v_setf(0.0f)));
@@ -84,7 +84,8 @@ static ALWAYS_INLINE void shadow_project(const e3d_light_maps *shadow, const e3d
 static ALWAYS_INLINE shadow_place shadow_place_ahead(const e3d_light_maps *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
 {
     shadow_place place;
-    vf32 at[3], shift = shadow_shift(shadow, v_mul(s->at[2], v_setf(map->texel)), s->sine);
+    vf32 at[3], sine = v_max(s->sine, shadow_sine(s->along[2]));
+    vf32 shift = shadow_shift(shadow, v_mul(s->at[2], v_setf(map->texel)), sine);
     for (int k = 0; k < 3; k++)
         at[k] = v_add(s->at[k], v_mul(s->along[k], shift));
     place.map = v_seti(0);
@@ -94,18 +95,33 @@ static ALWAYS_INLINE shadow_place shadow_place_ahead(const e3d_light_maps *shado
 
 static ALWAYS_INLINE vf32 shadow_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(0x7FFFFFFF))); }
 
+/* Which axis has the greatest distance, x before y before z: two masks, of x and of y. */
+typedef struct shadow_axis {
+    vmask by_x, by_y;
+} shadow_axis;
+
+static ALWAYS_INLINE shadow_axis shadow_axis_of(const vf32 p[3])
+{
+    vf32 a = shadow_abs(p[0]), b = shadow_abs(p[1]), c = shadow_abs(p[2]);
+    vmask by_x = v_mand(v_ge(a, b), v_ge(a, c));
+    return (shadow_axis){by_x, v_mandnot(v_ge(b, c), by_x)};
+}
+
+static ALWAYS_INLINE vf32 shadow_along(shadow_axis axis, const vf32 v[3]) { return v_self(axis.by_x, v[0], v_self(axis.by_y, v[1], v[2])); }
+
 /* The face of the cube, and the distances to the right, down and ahead in it; `at` and `along` are in the world's axes. */
 static ALWAYS_INLINE shadow_place shadow_place_cube(const e3d_light_maps *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
 {
     shadow_place place;
     vf32 zero = v_setf(0.0f), p[3], face[3];
     vf32 most = v_max(v_max(shadow_abs(s->at[0]), shadow_abs(s->at[1])), shadow_abs(s->at[2]));
-    vf32 shift = shadow_shift(shadow, v_mul(most, v_setf(map->texel)), s->sine);
+    vf32 sine = v_max(s->sine, shadow_sine(shadow_along(shadow_axis_of(s->at), s->along)));
+    vf32 shift = shadow_shift(shadow, v_mul(most, v_setf(map->texel)), sine);
     for (int k = 0; k < 3; k++)
         p[k] = v_add(s->at[k], v_mul(s->along[k], shift));
-    vf32 a = shadow_abs(p[0]), b = shadow_abs(p[1]), c = shadow_abs(p[2]);
-    vmask by_x = v_mand(v_ge(a, b), v_ge(a, c)), by_y = v_mandnot(v_ge(b, c), by_x);
-    vf32 major = v_self(by_x, p[0], v_self(by_y, p[1], p[2]));
+    shadow_axis of = shadow_axis_of(p);
+    vmask by_x = of.by_x, by_y = of.by_y;
+    vf32 major = shadow_along(of, p);
     vmask back = v_lt(major, zero);
     vf32 minus[3] = {v_sub(zero, p[0]), v_sub(zero, p[1]), v_sub(zero, p[2])};
     vf32 right_x = v_self(back, minus[2], p[2]), right_z = v_self(back, p[0], minus[0]);

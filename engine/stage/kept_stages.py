@@ -18,6 +18,7 @@ from ..base.files.stamps import FileState
 from ..errors import InvalidArgumentError
 from ..io.reading.linked_files import found_files
 from ..io.resources import versions_of
+from ..io.scenes.other_libraries import library_of
 from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material
 from ..model.scene.instances import InstancedMesh
@@ -126,10 +127,7 @@ class KeptStages:
         with found_files(lambda path: files.setdefault(path, FileState(path))):
             viewed = viewed_of(thing)
         if viewed is None:
-            raise InvalidArgumentError(
-                "a path, a scene, a node, a mesh or points can be drawn, "
-                f"not {type(thing).__name__}; to draw several, add them to a Scene"
-            )
+            raise InvalidArgumentError(_refusal(thing))
         show_numbers(viewed, marks)
         settings = settings_for(self._look, options, self._material, marks)
         view_renderer = ViewRenderer(
@@ -209,3 +207,14 @@ def _versions(thing: Mesh | InstancedMesh) -> tuple[Any, ...]:
     if isinstance(thing, InstancedMesh):
         return (thing.version, *versions_of(thing.mesh))
     return versions_of(thing)
+
+
+def _refusal(thing: Any) -> str:
+    """Return why a thing cannot be drawn."""
+    kind, library = type(thing).__name__, library_of(thing)
+    if library is not None:
+        return f"this {kind} of {library} holds nothing that can be drawn"
+    return (
+        "a path, a scene, a node, a mesh or points can be drawn, "
+        f"not {kind}; to draw several, add them to a Scene"
+    )

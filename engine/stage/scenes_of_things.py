@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..io.scenes.other_libraries import scene_of_library
+from ..errors import warn
+from ..io.scenes.other_libraries import has_points, scene_of_library
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
@@ -32,6 +33,8 @@ def scene_of(thing: Any) -> Scene | None:
     if isinstance(thing, Scene):
         return thing
     if (made := scene_of_library(thing)) is not None:
+        if not has_points(made):
+            warn(f"this {type(thing).__name__} has no points: nothing shows")
         return made
     scene = Scene()
     if (mesh := mesh_of_arrays(thing)) is not None:

@@ -7,6 +7,8 @@ from agents.conftest import Agent, models
 
 import engine3d as e3d
 
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
 
 @pytest.fixture
 def caged(tmp_path):
@@ -78,3 +80,18 @@ def test_a_root_that_holds_everything_is_refused(tmp_path):
         Agent("/")
     with pytest.raises(e3d.FileAccessError, match="no such folder"):
         Agent(tmp_path / "none")
+
+
+@pytest.mark.parametrize("folder", ["", "sub/"])
+def test_files_are_named_below_the_root(caged, folder):
+    """Whatever is told of a file: its damage, what is left out of it, what a format lacks."""
+    write = {"bad.stl": "nope", "none.obj": "", "bare.obj": "mtllib no.mtl\n" + TRIANGLE}
+    for name, text in write.items():
+        (caged.root / folder / name).write_text(text)
+    assert caged.error("load", path=f"{folder}bad.stl").startswith(f"{folder}bad.stl: ")
+    assert caged.error("load", path=f"{folder}none.obj").startswith(f"{folder}none.obj: ")
+    told = [*caged.told("load", path=f"{folder}bare.obj")["warnings"]]
+    caged.told("load", path="block.stl")
+    saved = caged.call("export", path=f"{folder}out.stl", objects=["bare"])
+    told += [part.text for part in saved.content]
+    assert told and not any(str(caged.root) in line for line in told)

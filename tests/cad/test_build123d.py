@@ -135,7 +135,9 @@ def test_shapes_of_ocp_itself_and_lists_are_known():
 @pytest.mark.parametrize("make", [b.Compound, b.Part, b.Sketch, lambda: [b.Part(), b.Sketch()]])
 def test_empty_shapes_are_no_shapes(make):
     assert scene_of_library(make()) is None
-    with pytest.raises(e3d.InvalidArgumentError, match="can be drawn, not"):
+    with pytest.raises(
+        e3d.InvalidArgumentError, match="of build123d holds nothing that can be drawn"
+    ):
         e3d.render(make())
 
 

@@ -16,7 +16,7 @@ from matplotlib.backend_bases import MouseEvent  # noqa: E402
 from mpl_toolkits.mplot3d import art3d  # noqa: E402
 
 from engine3d.compat.matplotlib import Axes3D  # noqa: E402
-from engine3d.errors import Engine3DWarning  # noqa: E402
+from engine3d.errors import Engine3DWarning, InvalidArgumentError  # noqa: E402
 
 SQUARE = np.meshgrid([-1.0, 1.0], [-1.0, 1.0])
 
@@ -314,3 +314,14 @@ def test_axes_without_anything(ax):
     plain = plt.figure(figsize=(4, 3), dpi=100).add_subplot(projection="3d")
     plain.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1))
     assert (pixels_of(ax) == pixels_of(plain)).all()
+
+
+@pytest.mark.parametrize("size", [(170, 0.2), (0.2, 170)])
+def test_axes_larger_than_pictures_can_be_are_refused(size):
+    figure = plt.figure(figsize=size, dpi=100)
+    ax = figure.add_axes((0, 0, 1, 1), projection="engine3d")
+    ax.plot([0, 1], [0, 1], [0, 1])
+    ax.set_position((0, 0, 1, 1))
+    ax.apply_aspect = lambda position=None: None  # fill the figure
+    with pytest.raises(InvalidArgumentError, match="at most 16384 a side can: lower the figure"):
+        pixels_of(ax)

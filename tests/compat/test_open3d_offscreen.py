@@ -101,6 +101,9 @@ def test_the_camera_is_where_it_was_put():
     ("call", "said"),
     [
         (lambda camera: camera.look_at([1, 1, 1], [1, 1, 1], [0, 1, 0]), "one point"),
+        (lambda camera: camera.look_at([np.nan, 1, 1], [0, 0, 1], [0, 1, 0]), "center must be"),
+        (lambda camera: camera.look_at([1, 1, 1], [0, np.inf, 1], [0, 1, 0]), "eye must be"),
+        (lambda camera: camera.look_at([1, 1, 1], [0, 0, 1], [0, 1]), "up must be three"),
         (lambda camera: camera.set_projection(60.0, 1.0, 0.0, 9.0, camera.Vertical), "near_plane"),
         (lambda camera: camera.set_extrinsic(np.eye(3)), r"\(4, 4\)"),
         (lambda camera: camera.set_projection(np.zeros((3, 3)), 0.1, 9.0, 8, 6), "focal lengths"),
@@ -280,3 +283,14 @@ def test_any_numbers_of_a_material_are_drawn(values):
 def test_what_is_no_geometry_is_refused(wrong):
     with pytest.raises(InvalidArgumentError, match="a geometry of Open3D is needed"):
         rendering.OffscreenRenderer(8, 8).scene.add_geometry("a", wrong, filament.record())
+
+
+@pytest.mark.parametrize("wrong", [None, {}, "defaultLit"])
+def test_what_is_no_material_is_refused(wrong):
+    scene = rendering.OffscreenRenderer(8, 8).scene
+    scene.add_geometry("there", wall(0.0), filament.record())
+    for call in (scene.update_material, lambda it: scene.modify_geometry_material("there", it)):
+        with pytest.raises(InvalidArgumentError, match="material must be a MaterialRecord"):
+            call(wrong)
+    with pytest.raises(InvalidArgumentError, match="material must be a MaterialRecord"):
+        scene.add_geometry("new", wall(0.0), wrong)

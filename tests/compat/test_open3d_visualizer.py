@@ -288,3 +288,12 @@ def test_any_numbers_of_arrays_are_drawn():
         points.normals = rows(np.zeros((len(points.points), 3)))
         points.colors = rows(np.full((3, 3), values))
         assert seen(opened(points)).shape == (40, 60, 3)
+
+
+@pytest.mark.parametrize("name", ["point_sizes", "lights_on", "backgroundcolor", "ambient_light"])
+def test_options_that_do_not_exist_are_refused(name):
+    option = opened(ball()).get_render_option()
+    with pytest.raises(AttributeError, match=f"RenderOption has no '{name}'"):
+        setattr(option, name, 3)
+    option.point_size = 3
+    assert option.point_size == 3

@@ -3,6 +3,7 @@
 import functools
 import inspect
 import itertools
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -419,3 +420,18 @@ def test_soft_bodies_and_unknown_textures_are_warned_of(bullet):
     bullet.loadSoftBody("cube.obj", useMassSpring=1, useNeoHookean=0)
     with pytest.warns(e3d.Engine3DWarning, match="soft bodies of PyBullet are not drawn"):
         bullet.getCameraImage(*SIZE, *camera())
+
+
+def test_threads_take_turns(bullet):
+    """Each thread gets its own camera's picture, whatever the others draw meanwhile."""
+    bullet.loadURDF("r2d2.urdf", (0, 0, 0.5))
+    cameras = [camera(eye=(2 + 0.2 * number, 2, 1.5)) for number in range(6)]
+    alone = [arrays(bullet.getCameraImage(*SIZE, *one)) for one in cameras]
+
+    def drawn(number):
+        return arrays(bullet.getCameraImage(*SIZE, *cameras[number]))
+
+    with ThreadPoolExecutor(6) as threads:
+        for number, found in enumerate(threads.map(drawn, [0, 1, 2, 3, 4, 5] * 5)):
+            for one, expected in zip(found, alone[number % 6], strict=True):
+                assert np.array_equal(one, expected)

@@ -46,6 +46,9 @@ def test_what_cannot_be_drawn_is_told():
     table = pyvista.Table(np.zeros((2, 2)))
     with pytest.raises(e3d.InvalidArgumentError, match="a Table without points cannot be drawn"):
         table.engine3d.render()
+    for empty in (pyvista.PolyData(), pyvista.UnstructuredGrid(), pyvista.MultiBlock()):
+        with pytest.raises(e3d.InvalidArgumentError, match="without points cannot be drawn"):
+            empty.engine3d.render()
 
 
 def test_pyvista_finds_the_entry_point(tmp_path):

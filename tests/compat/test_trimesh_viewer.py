@@ -173,3 +173,21 @@ def test_widths_that_are_no_numbers_are_named(name, wrong):
     scene = trimesh.Scene([trimesh.creation.box()])
     with pytest.raises(e3d.InvalidArgumentError, match=f"line_settings.*{name}"):
         scene.save_image(resolution=(8, 8), line_settings={name: wrong})
+
+
+@pytest.mark.parametrize("empty", [{}, {"vertices": [[0, 0, 0], [1, 0, 0]]}])
+def test_a_scene_of_empty_meshes_is_its_background(empty):
+    assert (picture(trimesh.Scene([trimesh.Trimesh(**empty)])) == 255).all()
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_points_without_a_place_are_named_as_the_cause(value):
+    good, bad = trimesh.creation.box(), trimesh.creation.box()
+    bad.vertices[3, 1] = value
+    scene = trimesh.Scene({"good": good, "bad": bad})
+    with pytest.raises(e3d.InvalidArgumentError, match="'bad' has points that are not finite"):
+        picture(scene)
+    scene = trimesh.Scene([good])
+    scene.camera_transform = np.full((4, 4), value)
+    with pytest.raises(e3d.InvalidArgumentError, match="camera_transform is not finite$"):
+        picture(scene)

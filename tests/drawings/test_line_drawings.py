@@ -234,6 +234,8 @@ def test_bad_arguments_are_refused():
         line_drawing(box, scale=0.5)
     with pytest.raises(wrong, match="scene must be"):
         line_drawing(3)
+    with pytest.raises(wrong, match="kind must be one of .*did you mean outline"):
+        line_drawing(box, (UP, ABOVE)).pieces.of("outlin")
 
 
 def test_a_scale_gives_the_size_on_paper():

@@ -372,6 +372,12 @@ def test_faults_of_the_tree_are_errors_with_lines(inside, line, told):
     assert caught.value.line == line
 
 
+def of_color(rgba):
+    """Return a link of a colour, in the robot's fifth line."""
+    look = f'<material name="m"><color rgba="{rgba}"/></material>'
+    return f'\n<link name="d"><visual>{BOX}{look}</visual></link>'
+
+
 @pytest.mark.parametrize(
     "inside, told",
     [
@@ -395,6 +401,9 @@ def test_faults_of_the_tree_are_errors_with_lines(inside, line, told):
             "size",
         ),
         (f'\n<link name="d"><visual>{BOX}<material name="m"/></visual></link>', "no material 'm'"),
+        (of_color("255 0 0 1"), "rgba '255 0 0 1' is beyond 0 to 1"),
+        (of_color("1 0 -.5 1"), "rgba '1 0 -.5 1' is beyond 0 to 1"),
+        (of_color("1 0 0"), "rgba '1 0 0' is unreadable: 1 1 1 1"),
     ],
 )
 def test_what_can_be_left_out_is_a_warning_with_its_line(inside, told):
@@ -426,6 +435,19 @@ def test_files_that_other_readers_take_are_taken():
         ("<sdf/>", "its root is <sdf>, not <robot>"),
         ("<robot name='r'/>", "a robot without links"),
         ("<robot name='r'><link name='a'/></robot>", "no link has a shape that can be drawn"),
+        *(
+            (
+                f"<robot name='r'><link name='a'><visual>{inside}</visual></link></robot>",
+                f"nothing of this robot can be drawn: a visual of link 'a' {why}",
+            )
+            for inside, why in (
+                ("<geometry><box size='0 1 1'/></geometry>", "has no size"),
+                ("<geometry><box size='nan 1 1'/></geometry>", "has no size"),
+                ("<geometry><sphere/></geometry>", "has no size"),
+                ("<geometry><cone/></geometry>", "is a 'cone'"),
+                ("", "has no geometry"),
+            )
+        ),
         (
             "<!DOCTYPE robot [<!ENTITY a 'aaa'>]><robot name='&a;'/>",
             "a document type is not allowed",

@@ -355,3 +355,12 @@ def _quietly(draw):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return draw()
+
+
+@pytest.mark.parametrize("k1", [-2.0, -0.5, -0.45])
+def test_the_share_of_blind_pixels_is_a_plain_number(k1):
+    lens = e3d.BrownConradyCamera(60.0, 60.0, 32.0, 24.0, (k1, 0, 0, 0))
+    with pytest.warns(e3d.Engine3DWarning, match=r": \d+(\.\d+)?% of the pixels of 64x48") as told:
+        e3d.Renderer((64, 48)).render(e3d.Scene(), (lens, np.eye(4)))
+    share = float(str(told[0].message).split(": ")[1].split("%")[0])
+    assert abs(share - 100 * (~lens.mask((64, 48))).mean()) <= 0.5

@@ -247,3 +247,12 @@ def test_numbers_that_are_not_finite_are_seen_nowhere():
     camera = LENSES["fisheye"]
     assert np.isnan(camera.project([(math.nan, 0, -1), (0, 0, 0)])).all()
     assert np.isnan(camera.rays([(math.nan, 1.0), (math.inf, 1.0)])).all()
+
+
+@pytest.mark.parametrize("count", [0, 1, 3, 5, 14])
+def test_wrong_coefficients_of_opencv_are_called_as_given(count):
+    matrix = np.diag([300.0, 300.0, 1.0])
+    kinds = [e3d.FisheyeCamera] if count == 5 else [e3d.FisheyeCamera, e3d.BrownConradyCamera]
+    for kind in kinds:
+        with pytest.raises(e3d.InvalidArgumentError, match=f"^D must be .* numbers, not {count}$"):
+            kind.from_opencv(matrix, np.zeros((1, count)))

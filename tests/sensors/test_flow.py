@@ -298,6 +298,16 @@ def test_warp_takes_pictures_of_numbers_only():
             flow.warp(wrong)
 
 
+@pytest.mark.parametrize("shape", [(3, 3), (2, 9), (9, 2), (1, 1, 3)])
+def test_warp_refuses_a_picture_that_visible_pixels_leave(shape):
+    vectors = np.zeros((6, 8, 2), np.float32)
+    everywhere = np.ones((6, 8), bool)
+    with pytest.raises(e3d.InvalidArgumentError, match="that of the other moment"):
+        Flow(vectors, everywhere, everywhere).warp(np.zeros(shape))
+    hidden = Flow(vectors, everywhere, ~everywhere).warp(np.zeros(shape))
+    assert hidden.shape == (6, 8, *shape[2:])
+
+
 def test_levels_of_detail_are_known_while_they_stay():
     fine, coarse = e3d.icosphere(0.5, 3), e3d.icosphere(0.5, 1)
     levels = [(fine, 0.0), (coarse, 0.05)]

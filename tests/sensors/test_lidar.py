@@ -225,3 +225,15 @@ def test_an_empty_scene_gives_an_empty_scan(tmp_path):
     for suffix in ("pcd", "ply", "bin", "npz"):
         scan.save(tmp_path / f"scan.{suffix}")
     assert (tmp_path / "scan.bin").read_bytes() == b""
+
+
+@pytest.mark.parametrize("elevations", [[-25.0, 3.0], [91.0], [[0.0], [-1.6]]])
+def test_elevations_in_degrees_are_a_warning(elevations):
+    with pytest.warns(e3d.errors.Engine3DWarning, match="elevations lie beyond straight up"):
+        Lidar(elevations, [0.0, 0.1])
+
+
+@pytest.mark.filterwarnings("error")
+def test_elevations_up_to_straight_up_are_none():
+    Lidar.raster((4, 5), (1.0, math.pi))
+    Lidar.spinning([-math.pi / 2, math.pi / 2], 8)

@@ -320,3 +320,20 @@ def test_what_is_of_no_library():
     within: list = []
     within.append(within)
     assert scene_of_library(within) is None
+
+
+EMPTY = {
+    "trimesh": (lambda of: of.Trimesh(), lambda of: of.Scene()),
+    "pyvista": (lambda of: of.PolyData(), lambda of: of.MultiBlock([None])),
+    "open3d": (lambda of: of.geometry.TriangleMesh(), lambda of: of.geometry.PointCloud()),
+}
+
+
+@pytest.mark.parametrize("library", EMPTY)
+def test_what_has_no_points_is_a_warning(library):
+    package = pytest.importorskip(library, exc_type=ImportError)
+    for make in EMPTY[library]:
+        thing = make(package)
+        told = f"this {type(thing).__name__} has no points"
+        with pytest.warns(e3d.errors.Engine3DWarning, match=told):
+            e3d.render(thing, size=(16, 12))

@@ -32,5 +32,6 @@ def test_points_lines_groups_and_plotters():
 
 def test_what_shows_nothing_in_space_is_refused():
     for thing in (vedo.Volume(np.ones((4, 4, 4))), vedo.Text2D("a")):
-        with pytest.raises(e3d.InvalidArgumentError, match=f"not {type(thing).__name__}"):
+        told = f"this {type(thing).__name__} of vedo holds nothing that can be drawn"
+        with pytest.raises(e3d.InvalidArgumentError, match=told):
             e3d.render(thing)

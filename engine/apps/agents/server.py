@@ -130,7 +130,7 @@ def _result(call: Callable[[], Answer], limits: Limits) -> CallToolResult:
             warnings.simplefilter("always", Engine3DWarning)
             answer = call()
     except Engine3DError as error:
-        return _failed(str(error))
+        return _failed(limits.with_short_names(str(error)))
     except MemoryError:
         return _failed("out of memory")
     except OSError as error:
@@ -139,10 +139,14 @@ def _result(call: Callable[[], Answer], limits: Limits) -> CallToolResult:
         traceback.print_exc()  # on standard error, for a report of the fault
         return _failed(f"a fault of engine3d: {type(error).__name__}: {printable(str(error))}")
     record = dict(answer.record)
-    told = [printable(str(w.message)) for w in caught if issubclass(w.category, Engine3DWarning)]
-    known = record.get("warnings", [])
+    told = [
+        limits.with_short_names(printable(str(w.message)))
+        for w in caught
+        if issubclass(w.category, Engine3DWarning)
+    ]
+    known = [limits.with_short_names(line) for line in record.get("warnings", [])]
     fresh = [line for line in dict.fromkeys(told) if not any(line.endswith(k) for k in known)]
-    if fresh and "warnings" in record:
+    if "warnings" in record:
         record["warnings"] = [*known, *fresh]
     record = _finite(record)
     texts = [_json(record), *(f"warning: {line}" for line in fresh if "warnings" not in record)]

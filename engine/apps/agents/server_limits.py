@@ -98,6 +98,10 @@ class Limits:
         """Return a path as agents name it: below the root."""
         return printable(os.path.relpath(path, self.root).replace(os.sep, "/"))
 
+    def with_short_names(self, message: str) -> str:
+        """Return a message in which files are named as agents name them: below the root."""
+        return message.replace(printable(os.path.join(self.root, "")), "")
+
     def _joined(self, path: str) -> str:
         if not isinstance(path, str) or not path or "\0" in path:
             raise InvalidArgumentError(f"path must be the name of a file, not {shown(path)}")

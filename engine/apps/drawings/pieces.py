@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._native import drawing as native
+from ...base.validation import choose
 from ...choices import LineKind
 from .clipping import are_before, clip_triangles
 from .line_kinds import KINDS, OUTLINE
@@ -47,7 +48,7 @@ class Pieces(NamedTuple):
         """Return the pieces of a kind, or those that are hidden, or not."""
         kept = np.ones(len(self.ends), bool)
         if kind is not None:
-            kept &= self.kinds == KINDS.index(kind)
+            kept &= self.kinds == KINDS.index(choose(kind, KINDS, "kind"))
         if hidden is not None:
             kept &= self.hidden == hidden
         return Pieces(self.ends[kept], self.kinds[kept], self.parts[kept], self.hidden[kept])

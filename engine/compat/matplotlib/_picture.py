@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib import artist as martist
 
+from ...base.image_size import MAX_SIZE
+from ...errors import InvalidArgumentError
 from ._known import LINE, POLYGONS, SCATTER, TEXT, Kind, is_clipped
 from ._lines import draw_waiting, project_line
 from ._pile import Pile
@@ -71,6 +73,11 @@ class Picture(martist.Artist):
         """
         if min(region.width, region.height) <= 0 or (view := self._view(region)) is None:
             return []
+        if max(region.width, region.height) > MAX_SIZE:
+            raise InvalidArgumentError(
+                f"axes of {region.width} x {region.height} pixels cannot be drawn, "
+                f"at most {MAX_SIZE} a side can: lower the figure's dpi"
+            )
         vertices = sum(vertex_count(artist) for artist, kind in drawn if kind is POLYGONS)
         pile = Pile(view, len(drawn), vertices)
         texts = self._collect(pile, view, drawn, spared is not None)

@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
+from ...base.near_words import meant
 from ._loading import load
 
 
@@ -34,6 +35,13 @@ class RenderOption(load().visualization.RenderOption):
     def __init__(self) -> None:
         super().__init__()
         self._read()
+
+    def __setattr__(self, name: str, value) -> None:
+        """Set an option; a name that is none is an AttributeError, as in Open3D."""
+        if not name.startswith("_") and not hasattr(type(self), name):
+            hint = meant(name, (known for known in dir(type(self)) if not known.startswith("_")))
+            raise AttributeError(f"RenderOption has no {name!r}{hint}")
+        super().__setattr__(name, value)
 
     def load_from_json(self, filename) -> None:
         """Take the options of a file of Open3D."""

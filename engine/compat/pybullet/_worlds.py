@@ -5,10 +5,12 @@ In: the number of a client. Out: its `Client`, the same one until it disconnects
 
 from __future__ import annotations
 
+from threading import Lock
 from typing import Any
 
 import numpy as np
 
+from ...base.system import after_fork
 from ._light import Light
 from ._shading import Painter
 from ._world import World
@@ -23,6 +25,8 @@ class Client:
     light : Light
     near, far : float
         Of the last camera, for calls without one.
+    lock : Lock
+        Held while a picture is drawn: threads of a program take turns.
     """
 
     def __init__(self, bullet: Any, number: int) -> None:
@@ -30,6 +34,7 @@ class Client:
         self.painter = Painter()
         self.light = Light()
         self.near, self.far = 0.01, 1000.0
+        self.lock = Lock()
 
     def note_lens(self, projection: np.ndarray) -> None:
         """Note where near and far are of a perspective, (4, 4) float64."""
@@ -48,6 +53,15 @@ class Client:
 
 
 _clients: dict[int, Client] = {}
+
+
+def _unlock() -> None:
+    """Take new locks in a forked process, where nobody would release the old ones."""
+    for client in _clients.values():
+        client.lock = Lock()
+
+
+after_fork(_unlock)
 
 
 def client_of(number: int) -> Client:

@@ -74,28 +74,29 @@ def getCameraImage(  # the name is PyBullet's
     number = operator.index(physicsClientId)
     pybullet.getNumBodies(physicsClientId=number)  # raises if there is no such client
     client = client_of(number)
-    client.light = client.light.changed(
-        direction=_vector(lightDirection, "lightDirection"),
-        color=_vector(lightColor, "lightColor"),
-        distance=_given(lightDistance),
-        shadow=None if shadow < 0 else bool(shadow),
-        ambient=_given(lightAmbientCoeff),
-        diffuse=_given(lightDiffuseCoeff),
-        specular=_given(lightSpecularCoeff),
-    )
-    if viewMatrix is None or projectionMatrix is None:
-        projection, view = client.usual_camera(pybullet)
-    else:
-        projection = _matrix(projectionMatrix, "projectionMatrix")
-        view = _matrix(viewMatrix, "viewMatrix")
-        client.note_lens(projection)
-    chosen = max(operator.index(flags), 0)
-    if chosen & _PROJECTIVE:
-        warn("ER_USE_PROJECTIVE_TEXTURE is for OpenGL alone: left out, as TinyRenderer does")
-    client.world.update()
-    picture = client.painter.draw(
-        client.world, size, projection, view, client.light, bool(chosen & _WITH_LINKS)
-    )
+    with client.lock:
+        client.light = client.light.changed(
+            direction=_vector(lightDirection, "lightDirection"),
+            color=_vector(lightColor, "lightColor"),
+            distance=_given(lightDistance),
+            shadow=None if shadow < 0 else bool(shadow),
+            ambient=_given(lightAmbientCoeff),
+            diffuse=_given(lightDiffuseCoeff),
+            specular=_given(lightSpecularCoeff),
+        )
+        if viewMatrix is None or projectionMatrix is None:
+            projection, view = client.usual_camera(pybullet)
+        else:
+            projection = _matrix(projectionMatrix, "projectionMatrix")
+            view = _matrix(viewMatrix, "viewMatrix")
+            client.note_lens(projection)
+        chosen = max(operator.index(flags), 0)
+        if chosen & _PROJECTIVE:
+            warn("ER_USE_PROJECTIVE_TEXTURE is for OpenGL alone: left out, as TinyRenderer does")
+        client.world.update()
+        picture = client.painter.draw(
+            client.world, size, projection, view, client.light, bool(chosen & _WITH_LINKS)
+        )
     masks = np.zeros_like(picture.masks) if chosen & _WITHOUT_MASKS else picture.masks
     return *size, picture.colors, picture.depths, masks
 

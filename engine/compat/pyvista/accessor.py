@@ -12,7 +12,7 @@ import pyvista
 
 from ...apps.viewer.show import show
 from ...errors import InvalidArgumentError
-from ...io.scenes.other_libraries import scene_of_library
+from ...io.scenes.other_libraries import has_points, scene_of_library
 from ...io.scenes.upright_loading import stand_upright
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
@@ -42,7 +42,7 @@ class DatasetAccessor:
             The data set has no points, such as a table.
         """
         scene = scene_of_library(self._dataset)
-        if scene is None or not scene.nodes:
+        if scene is None or not has_points(scene):
             kind = type(self._dataset).__name__
             raise InvalidArgumentError(f"a {kind} without points cannot be drawn")
         stand_upright(scene, "+Z")

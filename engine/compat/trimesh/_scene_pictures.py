@@ -31,8 +31,7 @@ _LEAST = 1.0  # pixels: OpenGL draws no thinner lines
 
 def draw(scene: Any, settings: Settings) -> NDArray[np.uint8]:
     """Return the picture, (H, W, 4) uint8."""
-    world_from_eye = np.asarray(scene.camera_transform, np.float64)
-    eye_from_world = inverse(world_from_eye)
+    eye_from_world = _eye_from_world(scene)
     lamps = lamps_of(scene)
     drawn = Scene(background=None, ambient=(0, 0, 0))
     for shape, pose in _shapes(scene, settings, eye_from_world):
@@ -55,6 +54,23 @@ def draw(scene: Any, settings: Settings) -> NDArray[np.uint8]:
         line_shape="round",
     )
     return _over(frame.color, _background(settings.background))
+
+
+def _eye_from_world(scene: Any) -> NDArray[np.float64]:
+    place = np.asarray(scene.camera_transform, np.float64)
+    if np.isfinite(place).all():
+        return np.asarray(inverse(place))
+    if all(
+        shape.is_empty for shape in scene.geometry.values()
+    ):  # trimesh finds no place for the camera
+        return np.eye(4)
+    broken = [name for name, shape in scene.geometry.items() if not _is_finite(shape)]
+    cause = f": geometry {broken[0]!r} has points that are not finite" if broken else ""
+    raise InvalidArgumentError(f"the scene's camera_transform is not finite{cause}")
+
+
+def _is_finite(shape: Any) -> bool:
+    return bool(np.isfinite(np.asarray(getattr(shape, "vertices", 0.0), np.float64)).all())
 
 
 def _shapes(

@@ -107,8 +107,15 @@ class Flow:
         if other.ndim not in (2, 3) or 0 in other.shape or other.dtype.kind not in "buif":
             raise InvalidArgumentError("picture must be (H, W) or (H, W, channels) numbers")
         rows, columns = np.indices(self.known.shape)
-        x = np.clip(columns + self.vectors[..., 0].astype(np.float64), 0, other.shape[1] - 1)
-        y = np.clip(rows + self.vectors[..., 1].astype(np.float64), 0, other.shape[0] - 1)
+        x = columns + self.vectors[..., 0].astype(np.float64)
+        y = rows + self.vectors[..., 1].astype(np.float64)
+        height, width = other.shape[:2]
+        if ((x >= width) | (y >= height))[self.visible].any():
+            raise InvalidArgumentError(
+                "picture must be that of the other moment: "
+                f"visible pixels go beyond {width} x {height}"
+            )
+        x, y = np.clip(x, 0, width - 1), np.clip(y, 0, height - 1)
         left, top = np.floor(x).astype(np.intp), np.floor(y).astype(np.intp)
         right = np.minimum(left + 1, other.shape[1] - 1)
         low = np.minimum(top + 1, other.shape[0] - 1)

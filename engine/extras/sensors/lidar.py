@@ -28,7 +28,7 @@ from ...base.validation import (
     positive,
     whole_number,
 )
-from ...errors import InvalidArgumentError
+from ...errors import InvalidArgumentError, warn
 from ...model.scene.scene import Scene
 from .lidar_patterns import PATTERNS
 from .scanning import measured, start_and_end
@@ -111,6 +111,8 @@ class Lidar(Closed):
         for name, values in (("elevations", self._elevations), ("azimuths", self._azimuths)):
             if not np.isfinite(values).all():
                 raise InvalidArgumentError(f"{name} must be finite")
+        if (np.abs(self._elevations) > math.pi / 2 + 1e-9).any():
+            warn("elevations lie beyond straight up or down: they are radians, see numpy.radians")
         if not (np.isfinite(self._times).all() and (self._times >= 0.0).all()):
             raise InvalidArgumentError("times must be finite, and 0 or more")
         self.duration = duration

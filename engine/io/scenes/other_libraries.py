@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import Any
 
+from ...model.geometry.mesh import Mesh
+from ...model.scene.instances import InstancedMesh
 from ...model.scene.scene import Scene
 
 #: Libraries of CAD, whose meshes have the edges of their models, and whose +Z is up.
@@ -48,6 +50,13 @@ def _scene_of_several(things: Sequence[Any]) -> Scene | None:
         for node in scene.nodes:
             whole.add(node.object, name=node.name, pose=node.world_pose)
     return whole if things else None
+
+
+def has_points(scene: Scene) -> bool:
+    """Return whether a mesh of a scene has points, without which nothing shows."""
+    objects = (node.object for node in scene.nodes)
+    meshes = (one.mesh if isinstance(one, InstancedMesh) else one for one in objects)
+    return any(len(one.positions) for one in meshes if isinstance(one, Mesh))
 
 
 def library_of(thing: Any) -> str | None:

@@ -189,8 +189,9 @@ def _warn_of_limit(camera: LensCamera, size: tuple[int, int], seen: NDArray[np.b
     limit = limit_of(camera, size)
     if limit and not seen.all():
         share = 100.0 * float((~seen).mean())
+        told = f"{share:.0f}" if share >= 10.0 else f"{share:.2g}"  # never 1e+02
         warn(
-            f"{type(camera).__name__}: {share:.2g}% of the pixels of {size[0]}x{size[1]} show "
+            f"{type(camera).__name__}: {told}% of the pixels of {size[0]}x{size[1]} show "
             f"nothing, because the lens's distortion has no inverse there: {limit}"
         )
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....base import linalg
+from ....base.numbers import shown
 from ....errors import InvalidArgumentError, warn
 from ....io.scenes.open3d_materials import material_of_record
 from ....io.scenes.open3d_scenes import octree_cells, require_indices, scene_from_open3d
@@ -69,6 +70,7 @@ class Thing:
 
     def dress(self, record: Any, planes: tuple[float, float]) -> None:
         """Take another material."""
+        _require_record(record)
         self.record, self.planes = record, planes
         self.mesh = _mesh(self.arrays, record)
 
@@ -99,6 +101,7 @@ def thing_of(geometry: Any, record: Any, planes: tuple[float, float]) -> Thing |
         geometry = geometry.to_legacy()
     if not hasattr(geometry, "is_empty"):
         raise InvalidArgumentError(f"a geometry of Open3D is needed, not {type(geometry).__name__}")
+    _require_record(record)
     if geometry.is_empty():
         return None
     arrays = _arrays(geometry)
@@ -110,6 +113,11 @@ def thing_of(geometry: Any, record: Any, planes: tuple[float, float]) -> Thing |
     if arrays.kind == "points" and box.is_empty():
         box = type(box)(np.asarray(box.min_bound) - _PADDING, np.asarray(box.max_bound) + _PADDING)
     return Thing(arrays, record, box, _mesh(arrays, record), np.eye(4), planes)
+
+
+def _require_record(record: Any) -> None:
+    if not hasattr(record, "shader"):
+        raise InvalidArgumentError(f"material must be a MaterialRecord, not {shown(record)}")
 
 
 def _arrays(geometry: Any) -> Arrays | None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....base import linalg
+from ....base.numbers import floats, shown
 from ....errors import InvalidArgumentError
 from .._loading import load
 
@@ -114,8 +115,7 @@ class Camera:
     def look_at(self, center: ArrayLike, eye: ArrayLike, up: ArrayLike) -> None:
         """Stand at ``eye`` and look at ``center``; world space."""
         target, place, upwards = (
-            np.asarray(value, np.float32).astype(np.float64).reshape(3)
-            for value in (center, eye, up)
+            _three(value, name) for name, value in (("center", center), ("eye", eye), ("up", up))
         )
         forward = _unit(target - place, "center and eye are one point")
         upwards = _unit(upwards, "up is zero")
@@ -234,6 +234,16 @@ def _plane(value, what: str) -> float:
 
 def _dot(a, b) -> float:
     return float((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2])
+
+
+def _three(value: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Return the numbers of a point or a direction, rounded to float32 as Open3D does."""
+    given = floats(value, name)
+    if given.size != 3 or not np.isfinite(given).all():
+        raise InvalidArgumentError(
+            f"look_at: {name} must be three finite numbers, not {shown(value)}"
+        )
+    return given.astype(np.float32).astype(np.float64).reshape(3)
 
 
 def _unit(vector, fault: str):

@@ -41,7 +41,7 @@ def read_urdf(source: Source, split: bool = False) -> Document:
     tree = _Tree(links, joints, _wanted(source, text, links), meshes).record(
         text.root.attributes.get("name", ""), roots_of(text, links, joints)
     )
-    _check_shown(source, tree, links, meshes)
+    _check_shown(source, tree, meshes.missing or text.left_out)
     tree = with_joints(tree, source.joints)
     objects = tree_objects(source, tree, MAX_REPEATED + source.size + meshes.size, split)
     counts: dict[str, Any] = {**tree_counts(tree, objects), "links": len(links)}
@@ -51,14 +51,12 @@ def read_urdf(source: Source, split: bool = False) -> Document:
     )
 
 
-def _check_shown(
-    source: Source, tree: TreeRecord, links: dict[str, Link], meshes: ShapeMeshes
-) -> None:
-    """Raise if no shape is drawn."""
+def _check_shown(source: Source, tree: TreeRecord, left_out: str) -> None:
+    """Raise if no shape is drawn, and say what was left out first."""
     if any(len(record.mesh.positions) for record in tree.meshes):
         return
-    if meshes.missing:
-        raise FileFormatError(f"nothing of this robot can be drawn: {meshes.missing}", source.path)
+    if left_out:
+        raise FileFormatError(f"nothing of this robot can be drawn: {left_out}", source.path)
     raise FileFormatError("no link has a shape that can be drawn", source.path)
 
 

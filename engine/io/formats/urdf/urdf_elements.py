@@ -29,6 +29,11 @@ _BETWEEN = re.compile(r"[\s,]+")
 class UrdfText(XmlFile):
     """The elements of a file of a robot.
 
+    Attributes
+    ----------
+    left_out : str
+        Why the first shape that is left out was; empty if none was.
+
     Raises
     ------
     FileFormatError
@@ -37,6 +42,7 @@ class UrdfText(XmlFile):
 
     def __init__(self, source: Source, warnings: WarningList) -> None:
         super().__init__(source, warnings)
+        self.left_out = ""
         data = self._repaired(source.data)
         self.root = self._parsed(data)
         if self.root.name != "robot":
@@ -68,6 +74,11 @@ class UrdfText(XmlFile):
         if not name:
             raise self.fault(f"<{element.name}> needs {attribute}=", element)
         return name
+
+    def leave_out(self, message: str, element: Element) -> None:
+        """Warn of a shape that is left out."""
+        self.left_out = self.left_out or message
+        self.warn(message, element)
 
     def unknown(self, what: str, name: str, known: Iterable[str], element: Element) -> NoReturn:
         """Raise that a name is not known, with the nearest that is."""

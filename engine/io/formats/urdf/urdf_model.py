@@ -123,11 +123,11 @@ def _shape(text: UrdfText, looks: _Looks, element: Element, link: str) -> Shape 
     where = f"a {element.name} of link {shown(link)}"
     geometry = element.first("geometry")
     if geometry is None or not geometry.children:
-        text.warn(f"{where} has no geometry, and is left out", element)
+        text.leave_out(f"{where} has no geometry, and is left out", element)
         return None
     form = geometry.children[0]
     if form.name not in SHAPES:
-        text.warn(f"{where} is a {shown(form.name)}, which is not drawn", form)
+        text.leave_out(f"{where} is a {shown(form.name)}, which is not drawn", form)
         return None
     sizes = tuple(
         number
@@ -135,7 +135,7 @@ def _shape(text: UrdfText, looks: _Looks, element: Element, link: str) -> Shape 
         for number in text.numbers(form, attribute, usual)
     )
     if not (all(sizes) if form.name == "mesh" else min(sizes) > 0.0):
-        text.warn(f"{where} has no size, and is left out", form)
+        text.leave_out(f"{where} has no size, and is left out", form)
         return None
     return Shape(
         name=element.attributes.get("name", ""),
@@ -155,6 +155,7 @@ class _Looks:
     def __init__(self, text: UrdfText) -> None:
         self._text = text
         self._known: dict[str, Look] = {}
+        self._stated_by: dict[int, Look] = {}  # an element is read once: its warnings come once
         inner = (
             material
             for link in text.root.all("link")
@@ -178,14 +179,24 @@ class _Looks:
         return self._known.get(look.name)
 
     def _stated(self, element: Element) -> Look:
-        text, color, texture = self._text, element.first("color"), element.first("texture")
-        rgba = None
-        if color is not None:
-            given = text.numbers(color, "rgba", (1.0, 1.0, 1.0, 1.0))
-            rgba = tuple(min(max(part, 0.0), 1.0) for part in given)
+        key = id(element)
+        if key not in self._stated_by:
+            self._stated_by[key] = self._read(element)
+        return self._stated_by[key]
+
+    def _read(self, element: Element) -> Look:
+        color, texture = element.first("color"), element.first("texture")
         return Look(
             element.attributes.get("name", ""),
-            rgba,
-            None if texture is None else text.name(texture, "filename"),
+            None if color is None else self._color(color),
+            None if texture is None else self._text.name(texture, "filename"),
             element.line,
         )
+
+    def _color(self, element: Element) -> tuple[float, ...]:
+        given = self._text.numbers(element, "rgba", (1.0, 1.0, 1.0, 1.0))
+        color = tuple(min(max(part, 0.0), 1.0) for part in given)
+        if color != given:
+            told = shown(element.attributes["rgba"])
+            self._text.warn(f"rgba {told} is beyond 0 to 1, and cut to it", element)
+        return color

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....base import linalg
-from ....base.numbers import floats
 from ....base.validation import CheckedAttribute
 from .lens_camera import CalibratedCamera, coefficients, of_matrix
 from .radial_curves import RisingCurve
@@ -25,6 +24,7 @@ _GRID = 4096
 _WIDEST = math.radians(89.0)  # from the axis: farther out, no plane shows what a lens sees
 _STEPS = 8
 _CLOSE = 1e-12
+_coefficients = coefficients((4, 5, 8, 12))
 
 
 class BrownConradyCamera(CalibratedCamera):
@@ -70,9 +70,7 @@ class BrownConradyCamera(CalibratedCamera):
         self.distortion = distortion
         self._set_range(znear, zfar)
 
-    distortion: CheckedAttribute[ArrayLike, tuple[float, ...]] = CheckedAttribute(
-        coefficients((4, 5, 8, 12))
-    )
+    distortion: CheckedAttribute[ArrayLike, tuple[float, ...]] = CheckedAttribute(_coefficients)
 
     @classmethod
     def from_opencv(
@@ -97,7 +95,7 @@ class BrownConradyCamera(CalibratedCamera):
         InvalidArgumentError
             K has skew, D has the 14 coefficients of a tilted sensor, or a number is wrong.
         """
-        return cls(*of_matrix(K), distortion=floats(D, "D"), znear=znear, zfar=zfar)
+        return cls(*of_matrix(K), distortion=_coefficients(D, "D"), znear=znear, zfar=zfar)
 
     def _all(self) -> tuple[float, ...]:
         return (*self.distortion, *(0.0,) * (12 - len(self.distortion)))

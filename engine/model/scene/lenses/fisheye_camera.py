@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....base import linalg
-from ....base.numbers import floats
 from ....base.validation import CheckedAttribute
 from .lens_camera import CalibratedCamera, angle_up_to, coefficients, of_matrix
 from .radial_curves import RisingCurve
 
 Floats = NDArray[np.float64]
 _GRID = 4096
+_four = coefficients((4,))
 
 
 class FisheyeCamera(CalibratedCamera):
@@ -75,7 +75,7 @@ class FisheyeCamera(CalibratedCamera):
         self.max_angle = max_angle
         self._set_range(znear, zfar)
 
-    k: CheckedAttribute[ArrayLike, tuple[float, ...]] = CheckedAttribute(coefficients((4,)))
+    k: CheckedAttribute[ArrayLike, tuple[float, ...]] = CheckedAttribute(_four)
     max_angle: CheckedAttribute[float, float] = CheckedAttribute(angle_up_to(math.pi, "pi"))
 
     @classmethod
@@ -103,7 +103,7 @@ class FisheyeCamera(CalibratedCamera):
         InvalidArgumentError
             K has skew, or a number is wrong.
         """
-        k = floats(D, "D")
+        k = _four(D, "D")
         return cls(*of_matrix(K), k=k, max_angle=max_angle, znear=znear, zfar=zfar)
 
     def _curve(self) -> RisingCurve:

@@ -90,6 +90,8 @@ class EditorWindow:
         io.config_error_recovery_enable_assert = False
         io.config_error_recovery_enable_debug_log = False
         io.config_windows_move_from_title_bar_only = True
+        # Typing into a number that only a double click opened would press shortcuts instead.
+        io.config_drag_click_to_input_text = True
         io.set_ini_filename("")
         choose_style()
         set_scale(self.window.scale)

@@ -19,6 +19,7 @@ from ....stage.overlays.lettering import heading_font
 from ... import events
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ...viewer.program_window import ProgramWindow
+from .array_dialog import ArrayDialog
 from .console_panel import ConsolePanel
 from .files import Files
 from .hierarchy_panel import HierarchyPanel
@@ -115,12 +116,14 @@ class EditorWindow:
         self._waiting = resources, materials  # for pictures of what they list
         self._files.offer_recovery()
         self._rendering = RenderDialog(self.workspace, self._files)
-        self._entries = entries(self.workspace, self._files, hierarchy, self._rendering)
+        arrays = ArrayDialog(self.workspace)
+        self._entries = entries(self.workspace, self._files, hierarchy, self._rendering, arrays)
         self._dialogs = (
             StartChooser(self.workspace, self._files),
             KeysWindow(self.workspace, self._entries),
             self._files,
             self._rendering,
+            arrays,
         )
         self.workspace.panels.offers_start = not path
         self._pixels = np.zeros((1, 1, 4), np.uint8)

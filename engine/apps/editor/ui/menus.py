@@ -13,6 +13,7 @@ from typing import NamedTuple
 from ....errors import printable
 from . import clipboard_actions as clipboard
 from . import selection_actions as actions
+from .array_dialog import ArrayDialog
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
 from .materials.material_actions import add_to_selected
@@ -38,6 +39,8 @@ class Entry(NamedTuple):
         Whether there is something to do.
     says : callable, optional
         The label as it is shown now.
+    is_on : callable
+        Whether a mark shows before the label: of what is switched on and off.
     """
 
     menu: str
@@ -46,10 +49,15 @@ class Entry(NamedTuple):
     act: Callable[[], object]
     is_enabled: Callable[[], bool] = lambda: True
     says: Callable[[], str] | None = None
+    is_on: Callable[[], bool] = lambda: False
 
 
 def entries(
-    workspace: Workspace, files: Files, hierarchy: HierarchyPanel, rendering: RenderDialog
+    workspace: Workspace,
+    files: Files,
+    hierarchy: HierarchyPanel,
+    rendering: RenderDialog,
+    arrays: ArrayDialog,
 ) -> list[Entry]:
     """Return all entries of all menus."""
 
@@ -62,6 +70,9 @@ def entries(
 
     def show_keys():
         workspace.panels.shows_keys = not workspace.panels.shows_keys
+
+    def switch_culling():
+        workspace.display.culls = not workspace.display.culls
 
     def is_any_selected():
         return bool(workspace.document.selection.nodes)
@@ -87,6 +98,7 @@ def entries(
         Entry("Edit", "Paste", "Ctrl+V", lambda: clipboard.paste(workspace)),
         Entry("Edit", "Rename", "F2", rename, is_any_selected),
         of_selection("Duplicate", "Ctrl+D", actions.duplicate),
+        Entry("Edit", "Array ...", "Ctrl+Shift+D", arrays.open, is_any_selected),
         of_selection("Group", "Ctrl+G", actions.group),
         of_selection("Delete", "Delete", actions.delete),
         of_selection("Put on the ground", "End", actions.put_on_ground),
@@ -100,6 +112,7 @@ def entries(
         ),
         Entry("View", "Orthographic or perspective", "5", workspace.toggle_orthographic),
         Entry("View", "Look through a camera", "0", workspace.look_through),
+        Entry("View", "Frustum culling", "", switch_culling, is_on=lambda: workspace.display.culls),
         Entry("View", "Play or pause", "Space", workspace.play_or_pause),
         Entry("Edit", "New material", "Ctrl+M", lambda: add_to_selected(workspace)),
         Entry("Tools", "Select", "Q", choose("select")),
@@ -200,7 +213,7 @@ def _draw_recent(workspace: Workspace, files: Files) -> None:
 def _draw_entry(entry: Entry) -> bool:
     """Lay out a line of a menu; return whether it was chosen."""
     label = entry.label if entry.says is None else f"{entry.says()}###{entry.label}"
-    return imgui.menu_item_simple(label, entry.keys, False, entry.is_enabled())
+    return imgui.menu_item_simple(label, entry.keys, entry.is_on(), entry.is_enabled())
 
 
 def _draw_window_menu(workspace: Workspace) -> None:

@@ -112,12 +112,15 @@ class Display:
         ``"plain"``, which costs nothing when a node is dragged.
     as_rendered : bool
         Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
+    culls : bool
+        Whether what is out of view is left out before it is drawn: the picture is the same.
     """
 
     mode: Mode = "lit"
     wireframe: bool = False
     look: LookName | None = None
     as_rendered: bool = False
+    culls: bool = True
 
     @property
     def worn_look(self) -> LookName:

@@ -86,6 +86,7 @@ class ArrayDialog:
         workspace = self._workspace
         nodes = workspace.document.selection.nodes
         workspace.do(ArrayNodes(workspace.scene, nodes, self.counts, self.steps))
+        workspace.frame((*nodes, *workspace.document.selection.nodes))  # rows may reach the eye
         imgui.close_current_popup()
 
 

@@ -52,6 +52,8 @@ class FileDialog:
         self._answer: Callable[[str], object] = print
         self._listing = Listing("", (), "")
         self._folder = os.getcwd()
+        self._folders = dict.fromkeys((False, True), self._folder)  # of files there, of new ones
+        self._beside = ""
         self._name = ""
         self._search = ""
 
@@ -63,6 +65,7 @@ class FileDialog:
         *,
         name: str | None = None,
         others: tuple[str, ...] = (),
+        beside: str | None = None,
     ) -> None:
         """Open the dialog.
 
@@ -77,17 +80,25 @@ class FileDialog:
             What a new file may be called; without it only files that are there can be chosen.
         others : tuple of str
             Extensions of a new file that are kept as entered; all others get the first of a kind.
+        beside : str, optional
+            A file in whose folder the first new file is looked for a place; the next ones where
+            the last one was.
         """
         self._title, self._kinds, self._answer = title, kinds, answer
         self._kind = next(iter(kinds))
         self._is_new, self._name = name is not None, name or ""
         self._others = others
         self._opens, self._focuses = True, self._is_new
-        self._go(self._folder)
+        if beside is not None and beside != self._beside:
+            self._beside = beside
+            self._folders[True] = os.path.dirname(os.path.abspath(beside))
+        self._go(self._folders[self._is_new])
 
     def _go(self, folder: str) -> None:
         self._listing, self._search = list_folder(folder), ""
-        self._folder = self._listing.path
+        self._folder = self._folders[False] = self._listing.path
+        if self._is_new:  # what is loaded often lies where nobody wants to save
+            self._folders[True] = self._folder
 
     def draw(self) -> None:
         """Lay out the dialog, if it is open."""

@@ -20,6 +20,7 @@ from .materials.material_actions import add_to_selected
 from .motion import motion_actions as motion
 from .render_dialog import RenderDialog
 from .translated_imgui import imgui
+from .translated_imgui import label as labelled
 from .view.standard_views import STANDARD_VIEWS
 from .workspace import PANELS, Workspace
 
@@ -74,6 +75,9 @@ def entries(
     def switch_culling():
         workspace.display.culls = not workspace.display.culls
 
+    def go_to_menus():
+        workspace.panels.goes_to_menus = True
+
     def is_any_selected():
         return bool(workspace.document.selection.nodes)
 
@@ -121,6 +125,7 @@ def entries(
         Entry("Tools", "Scale", "R", choose("scale")),
         *_motion_entries(workspace, is_any_selected),
         Entry("Help", "Keys and mouse", "F1", show_keys),
+        Entry("Help", "Go to the menus", "F10", go_to_menus),
     ]
 
 
@@ -168,6 +173,14 @@ def draw_menus(workspace: Workspace, listed: list[Entry], files: Files) -> None:
     if not imgui.begin_main_menu_bar():
         return
     menus = list(dict.fromkeys(entry.menu for entry in listed))
+    if workspace.panels.goes_to_menus:
+        bar = imgui.internal.get_current_window()
+        imgui.internal.focus_window(bar)
+        # Without this, arrows would go on from the menu that was open last.
+        layer, first = imgui.internal.NavLayer.menu, imgui.get_id(labelled(menus[0]))
+        imgui.internal.set_nav_id(first, layer, 0, imgui.internal.ImRect())
+        imgui.open_popup(menus[0])
+        workspace.panels.goes_to_menus = False
     for menu in menus[:-1]:
         _draw_menu(menu, listed, workspace, files)
     if imgui.begin_menu("Add"):

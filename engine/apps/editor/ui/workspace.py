@@ -90,6 +90,8 @@ class Panels:
         As long as it is not 0, what is typed waits for a field to appear.
     offers_start, shows_keys : bool
         Whether the choice of scenes to start from, or the list of keys, is open.
+    goes_to_menus : bool
+        Whether the keyboard is to go to the menu bar.
     """
 
     closed: set[str] = field(default_factory=set)
@@ -97,6 +99,7 @@ class Panels:
     pictures_to_focus: int = 0
     offers_start: bool = False
     shows_keys: bool = False
+    goes_to_menus: bool = False
 
 
 @dataclass

@@ -139,3 +139,20 @@ def test_what_is_exported_goes_beside_the_scene(editor, tmp_path):
     editor._files._dialog._go(str(tmp_path.parent))
     editor._files.export()
     assert editor._files._dialog._folder == str(tmp_path.parent), "where the last one went"
+
+
+def test_a_file_that_is_opened_by_keys_ends_the_choice_of_starts(editor, tmp_path):
+    scene = e3d.Scene()
+    scene.add(e3d.box(), name="one")
+    e3d.save_scene(scene, tmp_path / "a.e3d.json")
+    press(editor, "N", control=True)
+    assert editor.workspace.panels.offers_start
+    press(editor, "O", control=True)
+    dialog = editor._files._dialog
+    dialog._go(str(tmp_path))
+    dialog._name = "a.e3d.json"
+    dialog._finish()
+    settle(editor)
+    press(editor, "Return")  # would choose the first start
+    assert not editor.workspace.panels.offers_start
+    assert [node.name for node in editor.workspace.scene.nodes] == ["one"]

@@ -184,6 +184,7 @@ class Workspace:
         self.document = document
         document.prompt.guard = lambda: self.guard()
         self.plays, self.moments = False, 0
+        self.panels.offers_start = False  # by keys, a file may be opened behind the choice
         self._autosave = Autosave(document)
         self.hierarchy = Hierarchy(document.scene)
         self.view = Viewpoint(np.zeros(3), 10.0)

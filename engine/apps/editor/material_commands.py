@@ -157,13 +157,15 @@ def mesh_of(node: Node | None) -> Mesh | None:
 def new_material(resources: ResourceList, like: Material | None = None) -> Material:
     """Return a material under a name of its own: a plain one, or a copy of another."""
     material = Material() if like is None else copy_of(like)
-    material.name = _free_name(resources, "material" if like is None else like.name or "material")
+    material.name = free_name(resources, "material" if like is None else like.name or "material")
     return material
 
 
-def _free_name(resources: ResourceList, name: str) -> str:
+def free_name(resources: ResourceList, name: str) -> str:
     """Return a name that no material has: "red", then "red 2"."""
     taken = {entry.name for entry in resources.entries() if entry.kind == "material"}
+    if name not in taken:
+        return name
     stem, _, number = name.rpartition(" ")
     stem = stem if stem and number.isdigit() else name
     count = 1

@@ -10,6 +10,7 @@ from engine3d import data
 @pytest.fixture
 def editor(monkeypatch, tmp_path):
     from editor.ui.editor_hands import SIZE, settle  # which skip the tests that lack the extra
+    from imgui_bundle import imgui
 
     from engine3d.apps.editor.ui.editor_window import EditorWindow
 
@@ -23,5 +24,6 @@ def editor(monkeypatch, tmp_path):
             ("icons", "names", "outlines", "grid", "preview", "ball"), False
         )
         editor._scene._draw_times = lambda corner: None
+        imgui.get_io().key_repeat_delay = 1e9  # a busy machine holds no key
         settle(editor)
         yield editor

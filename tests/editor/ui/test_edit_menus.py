@@ -192,3 +192,19 @@ def test_a_window_that_closes_stops_the_drawing(editor, tmp_path):
     dialog.render_to(str(tmp_path / "turn.webp"))
     dialog.close()
     assert not (tmp_path / "turn.webp").exists() and not dialog.is_waiting
+
+
+def test_frustum_culling_is_switched_and_changes_what_is_drawn_but_not_the_picture(editor):
+    workspace = editor.workspace
+    workspace.scene.add(e3d.box(), translation=(0.0, 0.0, 1e5))
+    workspace.frame([find(editor, "Cab")])
+    culling, figures = entry(editor, "Frustum culling"), editor._scene._figures
+    texts, pictures = [], []
+    for _ in range(2):
+        settle(editor)
+        texts.append(figures.text(editor._scene._frame).split(", ")[2])
+        pictures.append(editor._scene._frame.color.tobytes())
+        culling.act()
+    count = sum(isinstance(node.object, e3d.Mesh) for node in workspace.scene.nodes)
+    assert texts[1] == f"{count} of {count} objects drawn" != texts[0]
+    assert pictures[0] == pictures[1] and culling.is_on()

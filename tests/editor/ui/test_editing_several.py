@@ -116,6 +116,7 @@ def test_a_shared_colour_is_set_once_and_copied_on_demand(editor, fingers, pair)
     assert lone.object.materials[0].color == (255, 0, 0)
     materials = editor._panels["Properties"]._materials
     materials._make_own(pair)
+    assert pair[0].object.materials[0].name == "box 0", "so that lists tell it from the other"
     assert pair[0].object is pair[1].object is not lone.object
     touch(editor, fingers, "##Colour", [0.0, 0.0, 1.0])
     assert pair[1].object.materials[0].color == (0, 0, 255)

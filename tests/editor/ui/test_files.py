@@ -1,5 +1,6 @@
 """Files in the editor's window: dropped, chosen, saved, loaded into nodes, left behind."""
 
+import os
 import time
 from importlib.resources import files
 
@@ -117,3 +118,41 @@ def test_a_mesh_is_loaded_into_a_node_and_removed(editor, tmp_path):
     assert cab.object is not old
     workspace.undo()
     assert cab.object is old
+
+
+def test_a_new_file_does_not_go_where_a_mesh_was_loaded(editor, tmp_path):
+    dialog, cab = editor._files._dialog, find(editor, "Cab")
+    editor._files.load_mesh(cab)
+    dialog._go(str(tmp_path))
+    settle(editor)
+    press(editor, "Escape")
+    editor._files.load_mesh(cab)
+    assert dialog._folder == str(tmp_path), "the next mesh lies beside the last one"
+    dialog.ask("Save the scene", {"Scenes": (".e3d.json",)}, print, name="scene.e3d.json")
+    assert dialog._folder == os.getcwd()
+
+
+def test_what_is_exported_goes_beside_the_scene(editor, tmp_path):
+    assert editor.workspace.save(str(tmp_path / "train.e3d.json"))
+    editor._files.export()
+    assert editor._files._dialog._folder == str(tmp_path)
+    editor._files._dialog._go(str(tmp_path.parent))
+    editor._files.export()
+    assert editor._files._dialog._folder == str(tmp_path.parent), "where the last one went"
+
+
+def test_a_file_that_is_opened_by_keys_ends_the_choice_of_starts(editor, tmp_path):
+    scene = e3d.Scene()
+    scene.add(e3d.box(), name="one")
+    e3d.save_scene(scene, tmp_path / "a.e3d.json")
+    press(editor, "N", control=True)
+    assert editor.workspace.panels.offers_start
+    press(editor, "O", control=True)
+    dialog = editor._files._dialog
+    dialog._go(str(tmp_path))
+    dialog._name = "a.e3d.json"
+    dialog._finish()
+    settle(editor)
+    press(editor, "Return")  # would choose the first start
+    assert not editor.workspace.panels.offers_start
+    assert [node.name for node in editor.workspace.scene.nodes] == ["one"]

@@ -114,3 +114,14 @@ def test_a_new_material_of_the_selection_is_one_step(editor):
         assert all(made in node.object.materials for node in nodes)
         document.undo()
         assert SceneState(document.scene) == before and document.resources.kept_materials == ()
+
+
+def test_f10_opens_the_menus_for_arrows_and_enter_each_time_from_the_first(editor):
+    for key in ("F10", "Down", "Return"):
+        press(editor, key)
+    assert editor._files._dialog._title == "Open a file", "the second line of the first menu"
+    press(editor, "Escape")
+    for lines, tool in ((2, "move"), (3, "rotate")):
+        for key in ("F10", "Right", "Right", "Right", *["Down"] * lines, "Return"):
+            press(editor, key)
+        assert editor.workspace.tools.chosen == tool

@@ -19,6 +19,7 @@ from ....stage.overlays.lettering import heading_font
 from ... import events
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ...viewer.program_window import ProgramWindow
+from .array_dialog import ArrayDialog
 from .console_panel import ConsolePanel
 from .files import Files
 from .hierarchy_panel import HierarchyPanel
@@ -90,6 +91,8 @@ class EditorWindow:
         io.config_error_recovery_enable_assert = False
         io.config_error_recovery_enable_debug_log = False
         io.config_windows_move_from_title_bar_only = True
+        # Typing into a number that only a double click opened would press shortcuts instead.
+        io.config_drag_click_to_input_text = True
         io.set_ini_filename("")
         choose_style()
         set_scale(self.window.scale)
@@ -113,12 +116,14 @@ class EditorWindow:
         self._waiting = resources, materials  # for pictures of what they list
         self._files.offer_recovery()
         self._rendering = RenderDialog(self.workspace, self._files)
-        self._entries = entries(self.workspace, self._files, hierarchy, self._rendering)
+        arrays = ArrayDialog(self.workspace)
+        self._entries = entries(self.workspace, self._files, hierarchy, self._rendering, arrays)
         self._dialogs = (
             StartChooser(self.workspace, self._files),
             KeysWindow(self.workspace, self._entries),
             self._files,
             self._rendering,
+            arrays,
         )
         self.workspace.panels.offers_start = not path
         self._pixels = np.zeros((1, 1, 4), np.uint8)

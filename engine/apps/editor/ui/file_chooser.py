@@ -22,6 +22,31 @@ _SIZE = 62, 30  # in heights of the font
 PICTURE = 192
 
 
+class LastFolders:
+    """The folders where files were looked for last.
+
+    Attributes
+    ----------
+    of_known, of_new : str
+        Of files that are there, and of new ones.
+    """
+
+    def __init__(self) -> None:
+        self.of_known = self.of_new = os.getcwd()
+        self._beside = ""
+
+    def go_beside(self, path: str) -> None:
+        """Look for new files in the folder of a file, the first time that it is given."""
+        if path != self._beside:
+            self._beside, self.of_new = path, os.path.dirname(os.path.abspath(path))
+
+    def note(self, folder: str, is_new: bool) -> None:
+        """Note a folder; what is loaded often lies where nobody wants to save."""
+        self.of_known = folder
+        if is_new:
+            self.of_new = folder
+
+
 class FileDialog:
     """A dialog for choosing a file.
 
@@ -51,7 +76,7 @@ class FileDialog:
         self._others: tuple[str, ...] = ()
         self._answer: Callable[[str], object] = print
         self._listing = Listing("", (), "")
-        self._folder = os.getcwd()
+        self._last = LastFolders()
         self._name = ""
         self._search = ""
 
@@ -63,6 +88,7 @@ class FileDialog:
         *,
         name: str | None = None,
         others: tuple[str, ...] = (),
+        beside: str | None = None,
     ) -> None:
         """Open the dialog.
 
@@ -77,17 +103,26 @@ class FileDialog:
             What a new file may be called; without it only files that are there can be chosen.
         others : tuple of str
             Extensions of a new file that are kept as entered; all others get the first of a kind.
+        beside : str, optional
+            A file in whose folder the first new file is looked for a place; the next ones where
+            the last one was.
         """
         self._title, self._kinds, self._answer = title, kinds, answer
         self._kind = next(iter(kinds))
         self._is_new, self._name = name is not None, name or ""
         self._others = others
         self._opens, self._focuses = True, self._is_new
-        self._go(self._folder)
+        if beside is not None:
+            self._last.go_beside(beside)
+        self._go(self._last.of_new if self._is_new else self._last.of_known)
 
     def _go(self, folder: str) -> None:
         self._listing, self._search = list_folder(folder), ""
-        self._folder = self._listing.path
+        self._last.note(self._folder, self._is_new)
+
+    @property
+    def _folder(self) -> str:
+        return self._listing.path
 
     def draw(self) -> None:
         """Lay out the dialog, if it is open."""

@@ -97,6 +97,7 @@ class Files:
             lambda chosen: self._save_or_export(chosen, then),
             name=name,
             others=GLTF_EXTENSIONS,
+            beside=path,
         )
 
     def export(self) -> None:
@@ -126,7 +127,13 @@ class Files:
         answer : callable
             Given the path.
         """
-        self._dialog.ask(title, kinds, lambda path: self._unless_there(path, answer), name=name)
+        self._dialog.ask(
+            title,
+            kinds,
+            lambda path: self._unless_there(path, answer),
+            name=name,
+            beside=self._workspace.document.path,
+        )
 
     def open_recent(self, path: str) -> None:
         """Open a file, after saving or discarding the old scene."""

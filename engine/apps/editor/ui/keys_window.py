@@ -26,7 +26,7 @@ MOUSE = (
     ("Ctrl while a handle is dragged", "snap, or do not where Snap is on"),
     ("Double click in Hierarchy", "frame the node"),
     ("Drag in Hierarchy", "put a node below another"),
-    ("Drag a number; Ctrl + click on it", "change it; type it"),
+    ("Click on a number; drag it", "type it; change it"),
 )
 
 

@@ -13,12 +13,14 @@ from typing import NamedTuple
 from ....errors import printable
 from . import clipboard_actions as clipboard
 from . import selection_actions as actions
+from .array_dialog import ArrayDialog
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
 from .materials.material_actions import add_to_selected
 from .motion import motion_actions as motion
 from .render_dialog import RenderDialog
 from .translated_imgui import imgui
+from .translated_imgui import label as labelled
 from .view.standard_views import STANDARD_VIEWS
 from .workspace import PANELS, Workspace
 
@@ -38,6 +40,8 @@ class Entry(NamedTuple):
         Whether there is something to do.
     says : callable, optional
         The label as it is shown now.
+    is_on : callable
+        Whether a mark shows before the label: of what is switched on and off.
     """
 
     menu: str
@@ -46,10 +50,15 @@ class Entry(NamedTuple):
     act: Callable[[], object]
     is_enabled: Callable[[], bool] = lambda: True
     says: Callable[[], str] | None = None
+    is_on: Callable[[], bool] = lambda: False
 
 
 def entries(
-    workspace: Workspace, files: Files, hierarchy: HierarchyPanel, rendering: RenderDialog
+    workspace: Workspace,
+    files: Files,
+    hierarchy: HierarchyPanel,
+    rendering: RenderDialog,
+    arrays: ArrayDialog,
 ) -> list[Entry]:
     """Return all entries of all menus."""
 
@@ -62,6 +71,12 @@ def entries(
 
     def show_keys():
         workspace.panels.shows_keys = not workspace.panels.shows_keys
+
+    def switch_culling():
+        workspace.display.culls = not workspace.display.culls
+
+    def go_to_menus():
+        workspace.panels.goes_to_menus = True
 
     def is_any_selected():
         return bool(workspace.document.selection.nodes)
@@ -87,6 +102,7 @@ def entries(
         Entry("Edit", "Paste", "Ctrl+V", lambda: clipboard.paste(workspace)),
         Entry("Edit", "Rename", "F2", rename, is_any_selected),
         of_selection("Duplicate", "Ctrl+D", actions.duplicate),
+        Entry("Edit", "Array ...", "Ctrl+Shift+D", arrays.open, is_any_selected),
         of_selection("Group", "Ctrl+G", actions.group),
         of_selection("Delete", "Delete", actions.delete),
         of_selection("Put on the ground", "End", actions.put_on_ground),
@@ -100,6 +116,7 @@ def entries(
         ),
         Entry("View", "Orthographic or perspective", "5", workspace.toggle_orthographic),
         Entry("View", "Look through a camera", "0", workspace.look_through),
+        Entry("View", "Frustum culling", "", switch_culling, is_on=lambda: workspace.display.culls),
         Entry("View", "Play or pause", "Space", workspace.play_or_pause),
         Entry("Edit", "New material", "Ctrl+M", lambda: add_to_selected(workspace)),
         Entry("Tools", "Select", "Q", choose("select")),
@@ -108,6 +125,7 @@ def entries(
         Entry("Tools", "Scale", "R", choose("scale")),
         *_motion_entries(workspace, is_any_selected),
         Entry("Help", "Keys and mouse", "F1", show_keys),
+        Entry("Help", "Go to the menus", "F10", go_to_menus),
     ]
 
 
@@ -155,6 +173,14 @@ def draw_menus(workspace: Workspace, listed: list[Entry], files: Files) -> None:
     if not imgui.begin_main_menu_bar():
         return
     menus = list(dict.fromkeys(entry.menu for entry in listed))
+    if workspace.panels.goes_to_menus:
+        bar = imgui.internal.get_current_window()
+        imgui.internal.focus_window(bar)
+        # Without this, arrows would go on from the menu that was open last.
+        layer, first = imgui.internal.NavLayer.menu, imgui.get_id(labelled(menus[0]))
+        imgui.internal.set_nav_id(first, layer, 0, imgui.internal.ImRect())
+        imgui.open_popup(menus[0])
+        workspace.panels.goes_to_menus = False
     for menu in menus[:-1]:
         _draw_menu(menu, listed, workspace, files)
     if imgui.begin_menu("Add"):
@@ -200,7 +226,7 @@ def _draw_recent(workspace: Workspace, files: Files) -> None:
 def _draw_entry(entry: Entry) -> bool:
     """Lay out a line of a menu; return whether it was chosen."""
     label = entry.label if entry.says is None else f"{entry.says()}###{entry.label}"
-    return imgui.menu_item_simple(label, entry.keys, False, entry.is_enabled())
+    return imgui.menu_item_simple(label, entry.keys, entry.is_on(), entry.is_enabled())
 
 
 def _draw_window_menu(workspace: Workspace) -> None:

@@ -29,7 +29,7 @@ _FRUSTUM = (1.0, 0.9, 0.4, 0.8)
 _COLLIDER = (0.45, 1.0, 0.55, 0.9)
 _NORMAL = (0.5, 1.0, 0.5, 0.7)
 _ICON, _SELECTED = (1.0, 0.92, 0.6, 1.0), (1.0, 0.63, 0.16, 1.0)
-_SHADOW = (0.0, 0.0, 0.0, 0.55)
+SHADOW = (0.0, 0.0, 0.0, 0.55)
 #: How large an icon is, in heights of the font.
 ICON_SIZE = 1.6
 #: More names would cover the scene; those of selected nodes come first.
@@ -177,7 +177,7 @@ def _normals(node: Node) -> np.ndarray:
 
 def _draw_names(lines, corner, texts: Sequence[tuple[str, list[float]]]) -> None:
     """Draw names beside their places, on a dark ground; those that would overlap are left out."""
-    color, ground = imgui.get_color_u32(_ICON), imgui.get_color_u32(_SHADOW)
+    color, ground = imgui.get_color_u32(_ICON), imgui.get_color_u32(SHADOW)
     taken: list[tuple[float, float, float, float]] = []
     for text, (x, y) in texts:
         size = imgui.calc_text_size(text)
@@ -197,7 +197,7 @@ def _overlap(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
 
 def _draw_lines(lines, ends: np.ndarray, color: Color) -> None:
     """Draw lines between pixels, (N, 2, 2), on dark ones."""
-    for name, wide in ((_SHADOW, scaled(3.0)), (color, scaled(1.0))):
+    for name, wide in ((SHADOW, scaled(3.0)), (color, scaled(1.0))):
         packed = imgui.get_color_u32(name)
         for start, end in ends.tolist():
             lines.add_line(start, end, packed, wide)

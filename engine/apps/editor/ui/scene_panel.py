@@ -19,7 +19,7 @@ from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
 from .materials import material_actions
 from .motion.motion_lines import draw_ways
-from .overlays import Overlays
+from .overlays import SHADOW, Overlays
 from .panel_layout import begin_panel
 from .scene_figures import SceneFigures
 from .scene_pictures import ScenePictures
@@ -143,7 +143,7 @@ class ScenePanel:
         workspace = self._workspace
         key = (
             *(size, workspace.display.mode, workspace.display.wireframe, workspace.changes),
-            *(workspace.display.look, workspace.display.as_rendered),
+            *(workspace.display.look, workspace.display.as_rendered, workspace.display.culls),
             *(workspace.view.pose().tobytes(), workspace.view.orthographic),
             *(workspace.view.distance, workspace.document.selection.version),
             *(workspace.scene, workspace.scene.data.arrays.changes),
@@ -167,8 +167,11 @@ class ScenePanel:
         """Show the figures of the scene's last picture."""
         text = self._figures.text(self._frame)
         place = corner.x + scaled(8.0), corner.y + self._frame.height - 1.5 * imgui.get_font_size()
-        color = imgui.get_color_u32(imgui.Col_.text_disabled)
-        imgui.get_window_draw_list().add_text(place, color, text)
+        size, gap = imgui.calc_text_size(text), scaled(4.0)
+        box = (place[0] - gap, place[1]), (place[0] + size.x + gap, place[1] + size.y)
+        lines = imgui.get_window_draw_list()
+        lines.add_rect_filled(*box, imgui.get_color_u32(SHADOW), gap)
+        lines.add_text(place, imgui.get_color_u32(imgui.Col_.text), text)
 
     def _draw_camera_name(self, corner) -> None:
         """Tell which camera the view looks through."""

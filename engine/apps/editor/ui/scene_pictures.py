@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....choices import LookName
+from ....choices import Culling, LookName
 from ....model.scene.scene import Scene
 from ....model.scene.staged_scene import StagedScene
 from ....rendering.frame import Frame
@@ -38,16 +38,18 @@ class ScenePictures:
         """Return the frame of the workspace's view, with or without the grid to work on."""
         workspace = self._workspace
         renderer, camera = self._renderer_for(size), workspace.camera()
+        culling: Culling = "all" if workspace.display.culls else "none"
         is_worked_in = not workspace.display.as_rendered
         self._drawn = self._with_grid() if grid and is_worked_in else workspace.scene
         if not is_worked_in:
-            return renderer.render(self._drawn, camera, outputs=CLICK_OUTPUTS)
+            return renderer.render(self._drawn, camera, outputs=CLICK_OUTPUTS, culling=culling)
         return renderer.render(
             self._drawn,
             camera,
             mode=workspace.display.mode,
             wireframe="overlay" if workspace.display.wireframe else None,
             outputs=CLICK_OUTPUTS,
+            culling=culling,
         )
 
     def _with_grid(self) -> Scene | StagedScene:

@@ -90,6 +90,8 @@ class Panels:
         As long as it is not 0, what is typed waits for a field to appear.
     offers_start, shows_keys : bool
         Whether the choice of scenes to start from, or the list of keys, is open.
+    goes_to_menus : bool
+        Whether the keyboard is to go to the menu bar.
     """
 
     closed: set[str] = field(default_factory=set)
@@ -97,6 +99,7 @@ class Panels:
     pictures_to_focus: int = 0
     offers_start: bool = False
     shows_keys: bool = False
+    goes_to_menus: bool = False
 
 
 @dataclass
@@ -112,12 +115,15 @@ class Display:
         ``"plain"``, which costs nothing when a node is dragged.
     as_rendered : bool
         Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
+    culls : bool
+        Whether what is out of view is left out before it is drawn: the picture is the same.
     """
 
     mode: Mode = "lit"
     wireframe: bool = False
     look: LookName | None = None
     as_rendered: bool = False
+    culls: bool = True
 
     @property
     def worn_look(self) -> LookName:
@@ -178,6 +184,7 @@ class Workspace:
         self.document = document
         document.prompt.guard = lambda: self.guard()
         self.plays, self.moments = False, 0
+        self.panels.offers_start = False  # by keys, a file may be opened behind the choice
         self._autosave = Autosave(document)
         self.hierarchy = Hierarchy(document.scene)
         self.view = Viewpoint(np.zeros(3), 10.0)

@@ -14,6 +14,7 @@ from .....model.materials.parameters import FLAG, Parameter, TextureSlot
 from .....model.materials.textures import Texture
 from .....model.scene.instances import InstancedMesh
 from .....model.scene.nodes import Node
+from ...material_commands import free_name
 from ..files import Files
 from ..translated_imgui import imgui
 from ..workspace import Workspace
@@ -95,10 +96,19 @@ class MaterialFields:
         meshes: dict[Mesh, Mesh] = {}
         for node in nodes:
             mesh = mesh_of(node.object)
-            own = [materials.setdefault(old, copy_of(old)) for old in mesh.materials]
+            for old in mesh.materials:
+                if old not in materials:
+                    materials[old] = self._copied(old, node)
+            own = [materials[old] for old in mesh.materials]
             meshes.setdefault(mesh, twin_of(mesh, own, mesh.name))
         each = [(node, {"object": _with_mesh(node.object, meshes)}) for node in nodes]
         self._fields.set_each(each, "Make a material of its own")
+
+    def _copied(self, material: Material, node: Node) -> Material:
+        """Return a copy for a node; one without a name is called as the node, to be told apart."""
+        copy = copy_of(material)
+        copy.name = copy.name or free_name(self._workspace.resources, node.name)
+        return copy
 
     def draw_values(self, materials: Sequence[Material]) -> None:
         """Lay out what materials are made of."""

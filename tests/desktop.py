@@ -131,6 +131,8 @@ class Desktop:
         try:
             self.do("mousemove", *(side // 2 for side in screen.size))
             self.window = until(self._lasting_window)
+            until(lambda: self.look().any())  # hands before the first picture find nothing
+            self.settle()
         except BaseException:
             self.kill()
             raise

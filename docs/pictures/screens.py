@@ -81,6 +81,7 @@ def learn(screen: Screen) -> np.ndarray:
 
 def editor(model: str, screen: Screen) -> np.ndarray:
     """The editor with a model, or without one."""
+    from engine3d.apps.editor.ui.console_panel import ConsolePanel
     from engine3d.apps.editor.ui.editor_window import EditorWindow
     from engine3d.apps.editor.ui.scene_panel import ScenePanel
 
@@ -90,6 +91,7 @@ def editor(model: str, screen: Screen) -> np.ndarray:
         # SDL's dummy screen is smaller than the window may be.
         patch.object(ProgramWindow, "fit_to_screen", lambda window: None),
         patch.object(ScenePanel, "_draw_times", lambda panel, corner: None),
+        patch.object(ConsolePanel, "_draw_log", lambda panel: None),  # it names a folder of here
         EditorWindow(model, size=glass.size, ui_scale=glass.scale) as window,
     ):
         window.window.present = glass.present

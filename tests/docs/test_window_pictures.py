@@ -11,14 +11,19 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "docs" / "pictures"))
 import screens
 
 pytestmark = MARKS
-# Messages pass at once, and the editor does not tell how fast it draws.
+# Messages pass at once. The editor opens in its size, as columns remember another one, and tells
+# neither how fast it draws nor the folders of here.
 COMMAND = """
 import sys
 from engine3d.apps.viewer import messages
 messages.MESSAGE_SECONDS, messages.READ_A_SECOND = 0.05, 1e9
 if sys.argv[1] == "edit":
     from engine3d.apps.editor.ui.scene_panel import ScenePanel
+    from engine3d.apps.editor.ui.console_panel import ConsolePanel
+    from engine3d.apps.viewer.program_window import ProgramWindow
     ScenePanel._draw_times = lambda panel, corner: None
+    ConsolePanel._draw_log = lambda panel: None
+    ProgramWindow.fit_to_screen = lambda window: None
 from engine3d.start import main
 sys.exit(main())
 """

@@ -47,7 +47,6 @@ class Editor(Desktop):
         self._mouse = None
         place = self.do("getwindowgeometry", "--shell", self.window).split()
         self.corner = [int(line.partition("=")[2]) for line in place if line[:2] in ("X=", "Y=")]
-        self.settle()  # before the first pictures there is nothing to click
 
     def move(self, x, y):
         if (x, y) == self._mouse:  # xdotool would wait for 15 seconds for the mouse to leave

@@ -31,7 +31,9 @@ if importlib.util.find_spec("engine3d._native.kernels_testing"):
     from kernel_workloads import KERNEL_WORKLOADS
     from kernels.kernels import Kernels
 
-ENOUGH = 0.001  # seconds that one measurement of a kernel lasts at least
+# Seconds that one measurement of a kernel lasts at least: Windows' clock of threads ticks 64 times
+# a second.
+ENOUGH = max(0.001, 4 * time.get_clock_info("thread_time").resolution)
 REFERENCES = ("scalar", "portable")
 # name of a row -> (workload, options of the frame)
 FRAMES = {

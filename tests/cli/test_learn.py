@@ -1,6 +1,7 @@
 """``engine3d learn``: which lessons there are, and what it shows, prints and writes."""
 
 import re
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,9 @@ from engine3d.apps.cli import main
 from engine3d.apps.learn.learn_window import LearnWindow
 
 pytestmark = pytest.mark.usefixtures("no_screen")
-LESSONS = sorted((Path(__file__).resolve().parents[2] / "lessons").glob("[0-9][0-9]_*.py"))
+LESSONS = sorted(
+    path for path in files("engine3d.lessons").iterdir() if re.match(r"\d\d_.*\.py$", path.name)
+)
 
 
 def test_the_list_has_every_lesson(capsys):
@@ -78,10 +81,10 @@ def test_a_program_of_ones_own_is_checked(program, status, said, tmp_path, capfd
 def test_pictures_go_to_a_folder(tmp_path, capfd):
     assert main(["learn", "lists", "-o", "pictures"]) == 0
     assert (tmp_path / "pictures" / "01_lists.png").stat().st_size > 1000
-    assert capfd.readouterr().out == "pictures/01_lists.png: 7 steps\n"
+    assert capfd.readouterr().out == f"{Path('pictures', '01_lists.png')}: 7 steps\n"
     english = (tmp_path / "pictures" / "01_lists.png").read_bytes()
     assert main(["learn", "lists", "-o", "images", "--language", "fr"]) == 0
-    assert capfd.readouterr().out == "images/01_lists.png: 7 steps\n"
+    assert capfd.readouterr().out == f"{Path('images', '01_lists.png')}: 7 steps\n"
     assert (tmp_path / "images" / "01_lists.png").read_bytes() != english
 
 

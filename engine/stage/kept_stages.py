@@ -94,6 +94,8 @@ class KeptStages:
         self._renderer = renderer
         self._look, self._material, self._drawing = look, material, drawing
         self._kept: OrderedDict[Any, Stage] = OrderedDict()
+        #: The stage that was asked for last.
+        self.last: Stage | None = None
 
     def stage_of(self, thing: Any, options: Mapping[str, Any], marks: Marks = NO_MARKS) -> Stage:
         """Return the stage of a thing that is drawn with some options; with marks always a new one.
@@ -102,6 +104,10 @@ class KeptStages:
         ------
         FileFormatError, FileAccessError, InvalidArgumentError
         """
+        self.last = self._found(thing, options, marks)
+        return self.last
+
+    def _found(self, thing: Any, options: Mapping[str, Any], marks: Marks) -> Stage:
         if isinstance(thing, (str, os.PathLike)):
             thing = os.fspath(thing)
         if marks.shows_any:

@@ -8,11 +8,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..base.calls import keywords_of, refuse_unknown
 from ..choices import Antialiasing, Backend, ColorSpace, Samples
+from ..errors import warn
 from ..model.materials.material import Material
+from ..model.scene.scene import Scene
+from ..rendering.camera_choice import find_camera
 from ..rendering.frame import Frame
+from ..rendering.framing import frame_scene
 from ..rendering.options import RenderKeywords
+from .blank import Reason, Sight, may_be_blank, why_blank
 from .look import LookChoice
 from .renderer import DrawingKeywords, Renderer
 
@@ -68,6 +75,11 @@ def render(
     ------
     InvalidArgumentError, BackendError, OutOfMemoryError, FileFormatError, FileAccessError
 
+    Warns
+    -----
+    Engine3DWarning
+        Nothing shows: it says why.
+
     Examples
     --------
     >>> e3d.render("model.glb").save("model.png")
@@ -75,7 +87,7 @@ def render(
     """
     refuse_unknown("render", options, (*PictureKeywords.__annotations__, *keywords_of(render)))
     given: Any = options
-    with Renderer(
+    renderer = _OnePicture(
         size,
         look=look,
         material=material,
@@ -84,5 +96,26 @@ def render(
         color_space=color_space,
         samples=samples,
         antialiasing=antialiasing,
-    ) as renderer:
-        return renderer.render(scene, camera, **given)
+    )
+    with renderer:
+        frame = renderer.render(scene, camera, **given)
+        if (reason := renderer.why_blank(frame, scene, camera)) is not None:
+            warn(f"nothing shows: {reason.sentence}")
+        return frame
+
+
+class _OnePicture(Renderer):
+    """Draws one picture, and tells why it is blank: nobody would look for the cause in a loop."""
+
+    @np.errstate(all="ignore")
+    def why_blank(self, frame: Frame, thing: Any, camera: CameraChoice) -> Reason | None:
+        """Return why a frame of a thing shows nothing of it; None if it does."""
+        staged = self._stages.last
+        if staged is not None:
+            return staged.view_renderer.why_blank()
+        if not isinstance(thing, Scene) or not may_be_blank(frame.stats, thing):
+            return None
+        aspect = self.width / self.height
+        seen_by, pose = find_camera(thing, camera) or frame_scene(thing, aspect=aspect)
+        drawing = {name: self._drawing[name] for name in ("backend", "threads")}
+        return why_blank(Sight(thing, seen_by, pose, self.size, {}, drawing))

@@ -330,6 +330,7 @@ class Renderer(rendering.Renderer):
         if found is None:
             return stage.first
         view_renderer.choose_theme(stage.first)
+        view_renderer.staging.alone = None  # what is drawn next is seen from elsewhere
         return CameraView(*found, stage.first.up, self.size)
 
 

@@ -119,7 +119,7 @@ def visible(extent, least, count, counted):
     records = np.concatenate([row for row, _ in made])
     records["order"] = np.arange(count)
     table = record_table(records.view(np.uint8)[None])
-    ids = np.arange(count, dtype=np.uint32)
+    ids = np.arange(count + PAD, dtype=np.uint32)
     tile = empty_tile()
     blocks = VISIBLE_TILE.fields["zmin"][1]  # where what is known of blocks begins
     empty = tile[blocks:].copy()

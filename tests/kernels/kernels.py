@@ -32,7 +32,9 @@ def record_table(records, drawn=None):
     if len(records) != 1 << bits or (drawn is not None and len(drawn) != len(records)):
         raise ValueError(f"{len(records)} workers are not a power of two, or not all")
     given = None if drawn is None else _addresses(drawn)
-    return record("record_table", records=_addresses(records), drawn=given, bits=bits)
+    made = record("record_table", records=_addresses(records), drawn=given, bits=bits)
+    made.kept += [records, drawn]
+    return made
 
 
 def shown_of(lights):

@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 from ...base.files import json_records
 
-#: Paths in a copy are relative to here, so that it may be stored anywhere.
-ROOT = "/"
+#: Paths in a copy are relative to here, so that it may be stored anywhere. On Windows "/" alone is
+#: of the working folder's drive, which may be another one later.
+ROOT = f"{os.environ.get('SYSTEMDRIVE', 'C:')}/" if os.name == "nt" else "/"
 _LARGEST = 1 << 40  # bytes
 
 

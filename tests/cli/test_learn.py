@@ -90,7 +90,8 @@ def test_pictures_go_to_a_folder(tmp_path, capfd):
 
 def test_a_page_of_html_is_written_where_it_is_asked_for(tmp_path, capsys):
     assert main(["learn", "lists", "-o", "new/lesson.html", "--language", "fr"]) == 0
-    assert "<h1>1. Un modèle, ce sont des listes</h1>" in (tmp_path / "new/lesson.html").read_text()
+    page = (tmp_path / "new" / "lesson.html").read_text("utf-8")
+    assert "<h1>1. Un modèle, ce sont des listes</h1>" in page
     assert capsys.readouterr() == ("", "")
 
 

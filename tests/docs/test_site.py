@@ -1,6 +1,9 @@
 """The examples of the site run, and every page has its place in the site."""
 
+import ast
+import re
 import runpy
+from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +41,14 @@ def test_examples_are_short_and_say_what_they_show(path):
     assert text.count("\n") <= MAX_LINES
     title, rule, blank, first = text.split("\n")[1:5]
     assert len(title) == len(rule) and not blank and first.startswith("This ")
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_use_models_that_every_installation_has(path):
+    setup = (DOCS.parent / "setup.py").read_text(encoding="utf-8")
+    left_out = ast.literal_eval(re.search(r"^SOURCE_ONLY = (\[.*?\])", setup, re.M | re.S)[1])
+    named = re.findall(r'"(\w+\.\w+)"', path.read_text(encoding="utf-8"))
+    assert not [one for one in named for kind in left_out if fnmatch(f"models/{one}", kind)]
 
 
 def test_every_page_has_its_place_in_the_site():

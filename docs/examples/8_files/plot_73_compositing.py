@@ -16,8 +16,8 @@ from PIL import Image
 import engine3d as e3d
 
 look = e3d.Look.studio(background=None)
-globe = files("engine3d.data") / "models" / "globe.obj"
-frame = e3d.render(globe, size=(400, 300), look=look)
+island = files("engine3d.data") / "models" / "island.obj"
+frame = e3d.render(island, size=(400, 300), look=look)
 
 rows, columns = np.indices((300, 400))
 stripes = np.where(((rows + columns) // 25 % 2)[..., np.newaxis], (250, 200, 80), (240, 130, 60))

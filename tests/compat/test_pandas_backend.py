@@ -117,7 +117,7 @@ def test_columns_are_taken_by_their_names():
 
 def test_tables_without_places_are_refused():
     assert scene_of_library(table()) is None
-    with pytest.raises(e3d.InvalidArgumentError, match="not DataFrame"):
+    with pytest.raises(e3d.InvalidArgumentError, match="this DataFrame of pandas holds nothing"):
         e3d.render(table(), **SIZE)
     with pytest.raises(e3d.InvalidArgumentError, match="the column 'y'"):
         e3d.render(pd.DataFrame({"x": [1], "y": ["a"], "z": [1]}), **SIZE)

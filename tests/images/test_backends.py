@@ -5,6 +5,7 @@ with all of them on some backend, each backend with all of them over the picture
 """
 
 import functools
+import gc
 
 import numpy as np
 import pytest
@@ -25,6 +26,7 @@ HOW = "to look: python tests/images/golden.py --pictures FOLDER; if it is meant:
 @functools.lru_cache(maxsize=4)
 def reference(name):
     """The picture, and its frame by the scalar reference."""
+    gc.collect()  # scenes and nodes hold each other: gigabytes of them would wait for Python
     picture = SCENES[name]()
     return picture, picture.draw("scalar")
 

@@ -8,7 +8,11 @@ import sys
 import tempfile
 from pathlib import Path
 
+import pytest
 from missing_here import skip_where_files_cannot_be_made
+
+# Of the files that one line skips, such as an import that they share, pytest-xdist tells only one.
+FILES_LEFT_OUT = []
 
 
 def pytest_configure(config):
@@ -32,11 +36,26 @@ def pytest_configure(config):
     config.option.loadscopereorder = False
 
 
+def pytest_collectreport(report):
+    if report.skipped:
+        FILES_LEFT_OUT.append(report.nodeid)
+
+
+def pytest_sessionfinish(session):
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["files left out"] = FILES_LEFT_OUT
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    FILES_LEFT_OUT.extend(getattr(node, "workeroutput", {}).get("files left out", ()))
+
+
 def pytest_terminal_summary(terminalreporter, config):
     """List the tests that were skipped, for .ci/run: with more installed, it runs them again."""
     if config.list_of_skipped:
         reports = terminalreporter.stats.get("skipped", [])
-        names = dict.fromkeys(report.nodeid for report in reports)
+        names = dict.fromkeys([*(report.nodeid for report in reports), *FILES_LEFT_OUT])
         Path(config.list_of_skipped).write_text("".join(f"{name}\n" for name in names), "utf-8")
 
 

@@ -35,6 +35,14 @@ def test_places_of_panels_are_kept(editor):
     assert "[Docking]" in layout_path().read_text("utf-8")
 
 
+def test_places_from_before_panels_had_ids_are_not_used(editor):
+    save_layout(editor.workspace)
+    assert load_layout(Workspace(), (1000, 640))
+    text = layout_path().read_text("utf-8")
+    layout_path().write_text(text.replace("form=2\n", ""), "utf-8")
+    assert not load_layout(Workspace(), (1000, 640))
+
+
 def test_a_layout_that_cannot_be_kept_does_no_harm(editor, monkeypatch, tmp_path):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "file"))

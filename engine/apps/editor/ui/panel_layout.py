@@ -24,6 +24,9 @@ from .workspace import PANELS, Workspace
 
 _HEAD = "[engine3d][Editor]"
 _SCALE = "ui_scale"
+#: Layouts of other forms are from before panels had IDs that no language changes. ImGui writes IDs
+#: in several ways.
+_FORM, _PRESENT_FORM = "form", "2"
 _LARGEST = 1 << 20  # bytes
 #: A layout of another screen is used if its window was at most so many times as wide as this one.
 _ROOM = 1.2
@@ -50,8 +53,8 @@ def load_layout(workspace: Workspace, size: tuple[int, int]) -> bool:
         return False
     settings = text.partition(_HEAD)[2].partition("\n[")[0]
     _read_settings(workspace, settings)
-    if "[Docking]" in text and not all(f"###{name}]" in text for name in PANELS):
-        return False  # from before panels had IDs that no language changes
+    if "[Docking]" in text and _section(settings).get(_FORM) != _PRESENT_FORM:
+        return False
     ratio = _scale_ratio(settings)
     if ratio != 1.0:
         text = _enlarged(text, ratio)
@@ -64,7 +67,11 @@ def load_layout(workspace: Workspace, size: tuple[int, int]) -> bool:
 def save_layout(workspace: Workspace) -> None:
     """Save the layout; on failure, the default is used next time."""
     path = layout_path()
-    lines = [_HEAD, f"closed={','.join(sorted(workspace.panels.closed))}"]
+    lines = [
+        _HEAD,
+        f"{_FORM}={_PRESENT_FORM}",
+        f"closed={','.join(sorted(workspace.panels.closed))}",
+    ]
     lines += [f"{tool}={step!r}" for tool, step in workspace.tools.steps.items()]
     lines.append(f"{_SCALE}={imgui.get_style().font_scale_dpi!r}")
     text = "\n".join(lines) + "\n\n" + imgui.save_ini_settings_to_memory()

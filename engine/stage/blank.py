@@ -30,6 +30,8 @@ from .visibility import DRAWABLE, mesh_of
 if TYPE_CHECKING:
     from .staging import Staging
 
+#: The options of `Renderer.render` by which a thing shows or not.
+SHOWING = ("cull", "point_size", "size_unit")
 _MANY = 1024
 _SMALL = 240  # pixels of the longer side of a first test picture
 
@@ -52,7 +54,7 @@ class Sight:
     size : (int, int)
         Of the picture, in pixels.
     options : Mapping
-        ``cull`` and ``point_size`` of `Renderer.render`.
+        Those of `SHOWING` that have been chosen.
     drawing : Mapping
         ``backend`` and ``threads`` of `Renderer`.
     """

@@ -6,6 +6,7 @@ from its own `Renderer`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from ..rendering.camera_choice import find_camera
 from ..rendering.frame import Frame
 from ..rendering.framing import frame_scene
 from ..rendering.options import RenderKeywords
-from .blank import Reason, Sight, may_be_blank, why_blank
+from .blank import SHOWING, Reason, Sight, may_be_blank, why_blank
 from .look import LookChoice
 from .renderer import DrawingKeywords, Renderer
 
@@ -99,7 +100,7 @@ def render(
     )
     with renderer:
         frame = renderer.render(scene, camera, **given)
-        if (reason := renderer.why_blank(frame, scene, camera)) is not None:
+        if (reason := renderer.why_blank(frame, scene, camera, options)) is not None:
             warn(f"nothing shows: {reason.sentence}")
         return frame
 
@@ -108,7 +109,9 @@ class _OnePicture(Renderer):
     """Draws one picture, and tells why it is blank: nobody would look for the cause in a loop."""
 
     @np.errstate(all="ignore")
-    def why_blank(self, frame: Frame, thing: Any, camera: CameraChoice) -> Reason | None:
+    def why_blank(
+        self, frame: Frame, thing: Any, camera: CameraChoice, options: Mapping[str, Any]
+    ) -> Reason | None:
         """Return why a frame of a thing shows nothing of it; None if it does."""
         staged = self._stages.last
         if staged is not None:
@@ -118,4 +121,5 @@ class _OnePicture(Renderer):
         aspect = self.width / self.height
         seen_by, pose = find_camera(thing, camera) or frame_scene(thing, aspect=aspect)
         drawing = {name: self._drawing[name] for name in ("backend", "threads")}
-        return why_blank(Sight(thing, seen_by, pose, self.size, {}, drawing))
+        look = {name: options[name] for name in SHOWING if name in options}
+        return why_blank(Sight(thing, seen_by, pose, self.size, look, drawing))

@@ -26,7 +26,7 @@ from ..rendering.support_functions import (
     support_of_scene,
 )
 from .appearance import Appearance, count_points, point_size
-from .blank import BlankWatch, Reason, Sight
+from .blank import SHOWING, BlankWatch, Reason, Sight
 from .lighting import Lighting, OnlyLight
 from .output_pictures import (
     COVERAGE,
@@ -418,7 +418,7 @@ class ViewRenderer:
     def _sight(self, camera: Camera, pose: np.ndarray) -> Sight:
         """Return what a frame looks at."""
         look = self._appearance()
-        look = {name: look[name] for name in ("cull", "point_size", "size_unit") if name in look}
+        look = {name: look[name] for name in SHOWING if name in look}
         drawing = {name: held for name, held in self._options.items() if name != "antialiasing"}
         return Sight(self.viewed.scene, camera, pose, self.size, look, drawing)
 

@@ -59,3 +59,14 @@ def test_a_renderer_draws_empty_pictures_without_a_word():
     with e3d.Renderer(SIZE) as renderer, warnings.catch_warnings():
         warnings.simplefilter("error")
         renderer.render(e3d.Scene())
+
+
+@pytest.mark.parametrize(("cull", "is_blank"), [("none", False), ("front", False), ("back", True)])
+def test_faces_that_are_culled_are_told(cull, is_blank):
+    glass = e3d.Mesh(np.float32([(-1, -1, 0), (0, 1, 0), (1, -1, 0)]), [(0, 1, 2)])
+    glass.materials = [e3d.Material(color=(200, 0, 0, 128), alpha_mode="blend")]
+    camera = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 5), (0, 0, 0))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        e3d.render(lit(glass), camera, size=SIZE, cull=cull)
+    assert ["their backs" in str(one.message) for one in said] == [True] * is_blank

@@ -202,12 +202,12 @@ class Drawer:
         self, task: Task, frame: Frame, scene: Scene, camera: Camera, pose, options: RenderOptions
     ) -> Reason | None:
         """Return why a picture is blank, or None if it is not."""
-        from ...stage.blank import Sight, may_be_blank, why_blank
+        from ...stage.blank import SHOWING, Sight, may_be_blank, why_blank
         from ...stage.scenes_of_things import is_lit
 
         if is_lit(scene) and not may_be_blank(frame.stats, scene):
             return None  # else there may be no more than the ground of the look
-        look = {name: getattr(options, name) for name in ("cull", "point_size", "size_unit")}
+        look = {name: getattr(options, name) for name in SHOWING}
         drawing = {"backend": self._backend, "threads": self._threads}
         return why_blank(Sight(scene, camera, pose, tuple(task.size), look, drawing))
 

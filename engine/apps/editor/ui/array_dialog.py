@@ -9,6 +9,7 @@ import math
 
 from ....base.language import translated
 from ..array_command import MOST_PLACES, ArrayNodes, usual_steps
+from .middle import begin_dialog
 from .translated_imgui import imgui
 from .workspace import Workspace
 
@@ -46,9 +47,7 @@ class ArrayDialog:
         if self._opens:
             imgui.open_popup(_TITLE)
             self._opens = False
-        middle = imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos(middle, imgui.Cond_.appearing, (0.5, 0.5))
-        if imgui.begin_popup_modal(_TITLE, None, imgui.WindowFlags_.always_auto_resize)[0]:
+        if begin_dialog(_TITLE):
             self._draw_choices()
             imgui.end_popup()
 

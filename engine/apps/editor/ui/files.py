@@ -20,6 +20,7 @@ from ..document import SCENE_EXTENSION
 from ..gltf_export import GLTF_EXTENSIONS
 from ..recovery import Recovery
 from .file_chooser import FileDialog
+from .middle import begin_dialog
 from .translated_imgui import imgui
 from .workspace import Workspace
 
@@ -232,11 +233,7 @@ class Files:
         if self._opens:
             imgui.open_popup("Question")
             self._opens = False
-        middle = imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
-        flags = imgui.WindowFlags_.always_auto_resize
-        shown, _ = imgui.begin_popup_modal("Question", None, flags)
-        if not shown:
+        if not begin_dialog("Question", imgui.Cond_.always):
             return
         imgui.text_unformatted(self._question)
         imgui.spacing()

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ....base.language import translated, translated_keys
+from .middle import place_in_middle
 from .translated_imgui import imgui
 from .workspace import Workspace
 
@@ -50,9 +51,8 @@ class KeysWindow:
         panels = self._workspace.panels
         if not panels.shows_keys:
             return
-        letter, middle = imgui.get_font_size(), imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos(middle, imgui.Cond_.appearing, (0.5, 0.5))
-        room = imgui.get_main_viewport().size
+        place_in_middle()
+        letter, room = imgui.get_font_size(), imgui.get_main_viewport().size
         size = min(44 * letter, 0.9 * room.x), min(36 * letter, 0.8 * room.y)
         imgui.set_next_window_size(size, imgui.Cond_.appearing)
         flags = imgui.WindowFlags_

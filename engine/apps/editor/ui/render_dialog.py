@@ -20,6 +20,7 @@ from ....model.scene.cameras import Camera
 from ....model.scene.nodes import Node
 from ..render_job import RenderJob, Shot
 from .files import Files
+from .middle import begin_dialog
 from .translated_imgui import imgui
 from .translated_imgui import label as labelled
 from .workspace import Workspace
@@ -106,15 +107,12 @@ class RenderDialog:
         if self._opens:
             imgui.open_popup(_TITLE)
             self._opens = False
-        middle = imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos(middle, imgui.Cond_.appearing, (0.5, 0.5))
-        if imgui.begin_popup_modal(_TITLE, None, imgui.WindowFlags_.always_auto_resize)[0]:
+        if begin_dialog(_TITLE):
             self._draw_choices()
             imgui.end_popup()
         if self._job is not None and not imgui.is_popup_open(labelled(_PROGRESS)):
             imgui.open_popup(_PROGRESS)
-        imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
-        if imgui.begin_popup_modal(_PROGRESS, None, imgui.WindowFlags_.always_auto_resize)[0]:
+        if begin_dialog(_PROGRESS, imgui.Cond_.always):
             self._draw_progress()
             imgui.end_popup()
 

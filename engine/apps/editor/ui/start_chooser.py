@@ -12,6 +12,7 @@ from ....base.language import translated
 from ....errors import printable
 from ..new_things.starts import STARTS
 from .files import Files
+from .middle import place_in_middle
 from .translated_imgui import imgui
 from .workspace import Workspace
 
@@ -46,8 +47,7 @@ class StartChooser:
             return
         if not self._was_open:
             self._recent, self._was_open = self._workspace.recent.paths()[:MOST_FILES], True
-        middle = imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
+        place_in_middle(imgui.Cond_.always)
         flags = imgui.WindowFlags_
         how = flags.no_docking | flags.no_saved_settings | flags.no_collapse | flags.no_move
         shown, is_open = imgui.begin(_TITLE, True, how | flags.always_auto_resize)

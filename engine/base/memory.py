@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import errno
 
+#: What is said of a file that memory does not suffice for.
+NEEDS_MORE = "needs more memory than there is"
+
 
 def is_lack_of_memory(error: BaseException) -> bool:
     """Return whether an error means that memory ran out; Python and systems have several."""

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..._native.loaders import frozen
-from ...base.memory import is_lack_of_memory
+from ...base.memory import NEEDS_MORE, is_lack_of_memory
 from ...errors import FileFormatError
 from ...model.materials.textures import MAX_SIDE
 from ..reading.reader_registry import Reader
@@ -118,7 +118,7 @@ def read_image(source: Source) -> np.ndarray:
 def decoding_fault(error: Exception, path: str) -> FileFormatError:
     """Return what a decoder's error says about an image file."""
     if is_lack_of_memory(error):
-        return FileFormatError("needs more memory than there is", path)
+        return FileFormatError(NEEDS_MORE, path)
     return FileFormatError(f"damaged image: {error}", path)
 
 

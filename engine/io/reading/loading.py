@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...base.calls import checks_types, keywords_of
-from ...base.memory import is_lack_of_memory
+from ...base.memory import NEEDS_MORE, is_lack_of_memory
 from ...base.validation import flag
 from ...errors import FileFormatError, InvalidArgumentError, warn
 from ...model.geometry.creases import CREASE_ANGLE, check_crease_angle
@@ -269,7 +269,7 @@ def _memory_of(source: Source) -> Iterator[None]:
         yield
     except (MemoryError, ImportError, OSError) as error:
         if is_lack_of_memory(error):
-            raise FileFormatError("needs more memory than there is", source.path) from error
+            raise FileFormatError(NEEDS_MORE, source.path) from error
         raise
 
 

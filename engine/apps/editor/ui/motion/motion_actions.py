@@ -105,8 +105,7 @@ def path(workspace: Workspace) -> None:
 
 def track_of(workspace: Workspace, node: Node) -> Track | None:
     """Return the keyframes of a node."""
-    held = motions_in(workspace.scene).tracks
-    return next((track for track in held if track.node is node), None)
+    return _track_in(motions_in(workspace.scene), node)
 
 
 def set_key(workspace: Workspace) -> None:

@@ -1,14 +1,12 @@
 """Real windows of the programs show, byte for byte, what was recorded of them on three screens."""
 
-import sys
-from pathlib import Path
-
 import pytest
 from desktop import MARKS, Desktop, until, virtual_screen
+from own_scripts import importable
 from PIL import Image
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "docs" / "pictures"))
-import screens
+with importable("docs/pictures"):
+    import screens
 
 pytestmark = MARKS
 # Messages pass at once. The editor opens in its size, as columns remember another one, and tells

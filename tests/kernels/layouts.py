@@ -5,13 +5,12 @@ Addresses are numbers.
 """
 
 import functools
-import sys
-from pathlib import Path
 
 import numpy as np
+from own_scripts import importable
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "csrc"))
-from headers import Enum, Headers, Struct, Typedef
+with importable("csrc"):
+    from headers import Enum, Headers, Struct, Typedef
 
 HEADERS = Headers("kernels/kernels.h", "base/helping.h", "e3d_posing.h")
 BASIC = {"float": "f4", "double": "f8", "char": "i1", "bool": "?", "int": "i4"}

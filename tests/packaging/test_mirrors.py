@@ -1,14 +1,12 @@
 """What is written at build time: Cython's mirrors of the C headers, and the stubs of modules."""
 
-import sys
-from pathlib import Path
-
 import pytest
+from own_scripts import importable
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "csrc"))
-import headers
-import mirrors
-import stubs
+with importable("csrc"):
+    import headers
+    import mirrors
+    import stubs
 
 LIST = """
 /* Rows. */

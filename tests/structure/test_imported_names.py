@@ -58,3 +58,12 @@ def test_imported_names_exist():
 def test_a_name_that_moved_is_found():
     tree = ast.parse("def later():\n    from ..base.numbers import moved_away, shown")
     assert list(missing_names(tree, ("rendering",))) == ["base.numbers.moved_away"]
+
+
+def test_tests_leave_no_folder_to_import_from():
+    """Its modules would hide folders of tests that have their names, whichever test comes next."""
+    changed = []
+    for path in (ROOT / "tests").rglob("*.py"):
+        statements = map(ast.unparse, ast.parse(path.read_text("utf-8")).body)
+        changed += [path.name for one in statements if one.startswith("sys.path")]
+    assert changed == []

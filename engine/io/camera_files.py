@@ -1,13 +1,15 @@
 """Cameras of calibrations: files of other programs, and records of scene files.
 
-In: JSON, or COLMAP's ``cameras.txt``. Out: a camera. Known are records of engine3d's scene files
-(``kind``), nerfstudio's ``transforms.json`` (``camera_model``), COLMAP's models (``model`` and
-``params``), and ROS's ``camera_info`` (``distortion_model``, ``K``, ``D``). Where a format puts the
-centre of the first pixel at (0, 0), as ROS does, half a pixel is added.
+In: JSON, COLMAP's ``cameras.txt``, or YAML of ROS. Out: a camera. Known are records of engine3d's
+scene files (``kind``), nerfstudio's ``transforms.json`` (``camera_model``), NeRF's without a model
+(``fl_x`` or ``camera_angle_x``), COLMAP's models (``model`` and ``params``), and ROS's
+``camera_info`` (``distortion_model``, ``K``, ``D``). Where a format puts the centre of the first
+pixel at (0, 0), as ROS does, half a pixel is added.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -20,6 +22,7 @@ from ..model.scene.cameras import Camera, IntrinsicsCamera
 from ..model.scene.lenses.brown_conrady_camera import BrownConradyCamera
 from ..model.scene.lenses.fisheye_camera import FisheyeCamera
 from ..model.scene.lenses.panorama_cameras import EquirectangularCamera
+from .camera_yaml import calibration, is_calibration
 from .reading.sources import File, read_source
 from .scenes.object_kinds import KINDS
 
@@ -34,9 +37,9 @@ def load_camera(path: File) -> Camera:
     Parameters
     ----------
     path : str, path-like, bytes or binary file
-        JSON: a camera's record of a scene file, nerfstudio's ``transforms.json``, ROS's
+        JSON: a camera's record of a scene file, ``transforms.json`` of NeRF or nerfstudio, ROS's
         ``camera_info``, a camera of COLMAP; or COLMAP's ``cameras.txt``, of which the first camera
-        is taken.
+        is taken; or ROS's YAML, which needs the package PyYAML.
 
     Returns
     -------
@@ -59,10 +62,12 @@ def load_calibration(path: File) -> tuple[Camera, tuple[int, int] | None]:
             raise FileFormatError(f"not read: larger than {_LARGEST} bytes", source.path)
         data = bytes(source.data)
         try:
-            if not data.lstrip().startswith((b"{", b"[")):
-                said: Any = _first_camera(data.decode("utf-8", "replace"))
+            if data.lstrip().startswith((b"{", b"[")):
+                said: Any = parsed(data, source.path)
+            elif is_calibration(data):
+                said = calibration(data)
             else:
-                said = parsed(data, source.path)
+                said = _first_camera(data.decode("utf-8", "replace"))
             return camera_of_record(said, "the camera"), stated_size(said)
         except InvalidArgumentError as error:
             raise FileFormatError(str(error), source.path) from None
@@ -92,7 +97,9 @@ def camera_of_record(said: Any, what: str) -> Camera:
 
 def stated_size(said: Mapping[str, Any]) -> tuple[int, int] | None:
     """Return the size that a record states; None for none, and for what is no size."""
-    sides = [said.get(name, said.get(name[0])) for name in ("width", "height")]  # w, h: nerfstudio
+    # w and h are nerfstudio's, image_width and image_height are those of ROS's YAML.
+    names = (("width", "w", "image_width"), ("height", "h", "image_height"))
+    sides = [next((said[name] for name in side if name in said), None) for side in names]
     if not all(real(side) >= 1 and real(side).is_integer() for side in sides):
         return None
     return int(real(sides[0])), int(real(sides[1]))
@@ -127,6 +134,20 @@ def _of_nerfstudio(said: Mapping[str, Any], what: str) -> Camera:
     return BrownConradyCamera(**pixels, distortion=(k1, k2, p1, p2, k3))
 
 
+def _of_nerf(said: Mapping[str, Any], what: str) -> Camera:
+    """Return the camera of NeRF's ``transforms.json``, whose angle counts in widths."""
+    if "fl_x" in said:  # instant-ngp's
+        return _of_nerfstudio({"camera_model": "OPENCV", **said}, what)
+    size, angle = stated_size(said), _number(said, "camera_angle_x", what)
+    if size is None:
+        raise InvalidArgumentError(f"{what}: camera_angle_x of NeRF counts with w and h only")
+    if not 0 < angle < math.pi:
+        raise InvalidArgumentError(f"{what}: camera_angle_x must be between 0 and π, not {angle}")
+    width, height = size
+    focal = width / 2 / math.tan(angle / 2)
+    return IntrinsicsCamera(focal, focal, width / 2, height / 2)
+
+
 def _of_colmap(said: Mapping[str, Any], what: str) -> Camera:
     model = _chosen(said["model"], _COLMAP, f"{what}: model")
     params = floats(said.get("params", ()), f"{what}: params").reshape(-1).tolist()
@@ -140,8 +161,9 @@ def _of_ros(said: Mapping[str, Any], what: str) -> Camera:
     models = ("plumb_bob", "rational_polynomial", "equidistant", "fisheye")
     model = _chosen(said["distortion_model"] or "plumb_bob", models, f"{what}: distortion_model")
     numbers = []
-    for name in ("K", "D"):
-        held = said.get(name, said.get(name.lower(), ()))
+    for name, in_yaml in (("K", "camera_matrix"), ("D", "distortion_coefficients")):
+        held = said.get(name, said.get(name.lower(), said.get(in_yaml, ())))
+        held = held.get("data", ()) if isinstance(held, Mapping) else held
         numbers.append(floats(held, f"{what}: {name}").reshape(-1))
     k, d = numbers
     if len(k) != 9:
@@ -160,7 +182,9 @@ def _first_camera(text: str) -> Mapping[str, Any]:
                 break
             width, height, *params = map(_real_text, words[2:])
             return {"model": words[1], "width": width, "height": height, "params": params}
-    raise InvalidArgumentError("neither JSON nor a line of CAMERA_ID MODEL WIDTH HEIGHT PARAMS")
+    raise InvalidArgumentError(
+        "neither JSON, nor ROS's YAML, nor a line of CAMERA_ID MODEL WIDTH HEIGHT PARAMS"
+    )
 
 
 def _real_text(word: str) -> float:
@@ -213,6 +237,8 @@ _COLMAP: dict[str, tuple[int, Callable[[list[float]], Camera]]] = {
 _FORMS: dict[str, Callable[[Mapping[str, Any], str], Camera]] = {
     "kind": _of_kind,
     "camera_model": _of_nerfstudio,
+    "fl_x": _of_nerf,
+    "camera_angle_x": _of_nerf,
     "distortion_model": _of_ros,
     "model": _of_colmap,
 }

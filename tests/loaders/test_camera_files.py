@@ -2,12 +2,13 @@
 
 import json
 import math
+import sys
 
 import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.io.camera_files import camera_of_record
+from engine3d.io.camera_files import camera_of_record, load_calibration
 
 K = [300.0, 0.0, 319.5, 0.0, 310.0, 239.5, 0.0, 0.0, 1.0]
 
@@ -47,6 +48,14 @@ K = [300.0, 0.0, 319.5, 0.0, 310.0, 239.5, 0.0, 0.0, 1.0]
             {"camera_model": "OPENCV", "fl_x": 9, "fl_y": 8, "cx": 3, "cy": 2},
             e3d.IntrinsicsCamera(9, 8, 3, 2),
         ),
+        (
+            {"camera_angle_x": 0.5 * math.pi, "w": 640, "h": 480},
+            e3d.IntrinsicsCamera(320.00000000000006, 320.00000000000006, 320, 240),
+        ),
+        (
+            {"camera_angle_x": 1.0, "fl_x": 9, "fl_y": 8, "cx": 3, "cy": 2, "w": 6, "h": 4},
+            e3d.IntrinsicsCamera(9, 8, 3, 2),
+        ),
         ({"camera_model": "EQUIRECTANGULAR"}, e3d.EquirectangularCamera()),
         ({"model": "PINHOLE", "params": [9, 8, 3, 2]}, e3d.IntrinsicsCamera(9, 8, 3, 2)),
         (
@@ -80,10 +89,81 @@ def test_colmaps_text_is_read():
     assert (camera.fx, camera.cy, camera.k) == (300, 240, (0.1, 0.2, 0.3, 0.4))
 
 
+SAVED = b"""# from camera_calibration
+image_width: 640
+image_height: 480
+camera_name: narrow_stereo
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [300., 0., 319.5, 0., 310., 239.5, 0., 0., 1.]
+distortion_model: plumb_bob
+distortion_coefficients: {rows: 1, cols: 5, data: [-0.3, 0.1, 0.001, 0.002, 0.01]}
+"""
+PRINTED = b"""header:
+  frame_id: eye
+height: 480
+width: 640
+distortion_model: plumb_bob
+d: [-0.3, 0.1, 0.001, 0.002, 0.01]
+k:
+- 300.0
+- 0.0
+- 319.5
+- 0.0
+- 310.0
+- 239.5
+- 0.0
+- 0.0
+- 1.0
+---
+"""
+
+
+@pytest.mark.parametrize("text", [SAVED, PRINTED])
+def test_yaml_of_ros_is_read(text):
+    pytest.importorskip("yaml")
+    camera, size = load_calibration(text)
+    found = (camera.fx, camera.fy, camera.cx, camera.cy, *camera.distortion)
+    assert found == (300, 310, 320, 240, -0.3, 0.1, 0.001, 0.002, 0.01)
+    assert size == (640, 480)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        SAVED.replace(b"rows: 1, ", b"rows: [1, "),
+        SAVED.replace(b"data: [300.,", b"data: &a [*a, 300.,"),
+        SAVED.replace(b"camera_matrix", b"camera_matrices"),
+        SAVED.replace(b"camera_name: n", b"camera_name: !!python/object:os.system n"),
+        SAVED + b"#" * 70_000,
+        b"distortion_model: " + b"[" * 60_000,
+        b"distortion_model: plumb_bob\nk: 2001-13-45\n",
+    ],
+)
+def test_damaged_yaml_is_refused(text):
+    pytest.importorskip("yaml")
+    with pytest.raises(e3d.FileFormatError):
+        e3d.load_camera(text)
+
+
+def test_yaml_without_its_package_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "yaml", None)
+    with pytest.raises(e3d.FileFormatError, match="ROS in YAML needs .* pip install PyYAML"):
+        e3d.load_camera(SAVED)
+
+
+def test_nerfs_angle_needs_a_size():
+    with pytest.raises(e3d.FileFormatError, match="camera_angle_x of NeRF counts with w and h"):
+        e3d.load_camera(b'{"camera_angle_x": 0.69, "frames": []}')
+
+
 @pytest.mark.parametrize(
     "said",
     [
         b"",
+        b'{"camera_angle_x": 4, "w": 9, "h": 9}',
+        b'{"camera_angle_x": "wide", "w": 9, "h": 9}',
         b"1 OPENCV 2",
         b"1 OPENCV 2 3 4 x",
         b"[1, 2]",

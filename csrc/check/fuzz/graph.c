@@ -202,7 +202,7 @@ static void select_and_draw(world *w, input *in)
     view.flat = take_below(in, 2);
     e3d_tree_destroy(fresh);
     CLAIM(bits[0] == fresh_bits[0] && bits[0] == flat_bits[0] && bits[0] >> g->count == 0);
-    const e3d_node_rows rows = {g->count, g->flags, g->object, g->id, g->world, NULL, NULL, 0};
+    const e3d_node_rows rows = {g->count, g->flags, g->object, g->id, g->world, NULL, NULL, 0, NULL};
     CLAIM(e3d_graph_draws(&w->list, &rows, take_below(in, 2) ? bits : NULL, take_below(in, 2) ? &view : NULL,
                           w->placed, OBJECTS, take_below(in, 2)));
     claim_draws(w);

@@ -11,6 +11,7 @@ from __future__ import annotations
 import copy
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
@@ -100,7 +101,8 @@ class Viewpoint:
 
     def rotation(self) -> np.ndarray:
         """Return the camera's axes in world space: (3, 3), columns right, up and back."""
-        return orbit_axes(self.up, self.azimuth, self.elevation)
+        angles = self.azimuth + 0.0, self.elevation + 0.0  # never -0.0, which a cache takes for 0.0
+        return _axes(tuple(side + 0.0 for side in self.up), *angles).copy()
 
     def position(self) -> np.ndarray:
         """Return the camera's position, (3,), in world space."""
@@ -309,3 +311,9 @@ def with_clip_planes(camera: Lens, near: float | None, far: float | None) -> Len
 
 def _dot(a: np.ndarray, b: np.ndarray) -> float:
     return float(linalg.dot(a, b))
+
+
+@lru_cache(maxsize=16)
+def _axes(up: tuple[float, ...], azimuth: float, elevation: float) -> np.ndarray:
+    """Remember the axes: a frame of a window asks for them again and again."""
+    return orbit_axes(up, azimuth, elevation)

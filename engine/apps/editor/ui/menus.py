@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from typing import NamedTuple
 
 from ....errors import printable
@@ -252,13 +252,16 @@ def press_keys(listed: list[Entry]) -> None:
         # Space activates the item that keyboard navigation has chosen
         if entry.keys == "Space" and io.nav_visible:
             continue
-        *modifiers, key = entry.keys.split("+")
-        held = io.key_ctrl == ("Ctrl" in modifiers) and io.key_shift == ("Shift" in modifiers)
-        if held and not io.key_alt and _is_pressed(key) and entry.is_enabled():
+        control, shift, keys = _chord(entry.keys)
+        held = io.key_ctrl == control and io.key_shift == shift and not io.key_alt
+        if held and any(imgui.is_key_pressed(key, False) for key in keys) and entry.is_enabled():
             entry.act()
 
 
-def _is_pressed(key: str) -> bool:
-    """Return whether a key was pressed; a digit also counts on the keypad."""
+@cache
+def _chord(keys: str) -> tuple[bool, bool, tuple[imgui.Key, ...]]:
+    """Return whether Ctrl and Shift are held, and the keys; a digit's is on the keypad, too."""
+    *modifiers, key = keys.split("+")
     names = (f"_{key}", f"keypad{key}") if key.isdigit() else (key.lower(),)
-    return any(imgui.is_key_pressed(getattr(imgui.Key, name), False) for name in names)
+    pressed = tuple(getattr(imgui.Key, name) for name in names)
+    return "Ctrl" in modifiers, "Shift" in modifiers, pressed

@@ -46,6 +46,34 @@ def test_things_stand_on_the_ground_and_apart(view):
     assert (depths > 0).all() and (seen > 0).all() and (seen < (320, 200)).all()
 
 
+@pytest.mark.parametrize("title", TITLES)
+def test_no_two_things_stand_in_one_place(title, view):
+    scene = e3d.Scene()
+    for _ in range(5):
+        add_new(scene, title, view)
+    places = np.array([node.world_pose[:3, 3] for node in scene.nodes])
+    apart = np.linalg.norm(places[:, np.newaxis] - places, axis=-1)[np.triu_indices(5, 1)]
+    assert apart.min() > 0.9
+
+
+def test_things_stand_beside_icons_and_below_lamps():
+    scene, view = e3d.Scene(), Viewpoint(np.zeros(3), 10.0)
+    lamp = add_new(scene, "Point light", view)
+    first, empty = add_new(scene, "Box", view), add_new(scene, "Empty", view)
+    second, floor = add_new(scene, "Box", view), add_new(scene, "Plane", view)
+    across = [node.translation[::2].tolist() for node in (lamp, first, floor)]
+    assert across == [[0.0, 0.0]] * 3
+    assert np.abs(second.translation - empty.translation).max() > 0.9
+    empty.visible = False
+    assert (add_new(scene, "Box", view).translation[::2] == empty.translation[::2]).all()
+
+
+def test_a_node_that_holds_others_takes_no_place_itself():
+    scene, view = e3d.Scene(), Viewpoint(np.zeros(3), 10.0)
+    scene.add(e3d.box(), parent=scene.add(name="model"), translation=(5.0, 0.5, 0.0))
+    assert add_new(scene, "Box", view).translation.tolist() == [0.0, 0.5, 0.0]
+
+
 def _sphere(scene):
     from engine3d.stage.scene_bounds import bounding_sphere
 

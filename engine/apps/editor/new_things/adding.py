@@ -21,19 +21,23 @@ from ....model.scene.nodes import Node
 from ....model.scene.orbiting import home_axes, orbit_axes
 from ....model.scene.scene import Scene
 from ....stage.views.viewpoint import Viewpoint
-from .free_places import free_place
+from .free_places import free_place, places_without_surface
 from .primitive_shapes import PRIMITIVES, new_primitive
 
 #: From this distance of the view to that one, new things have their usual size.
 _USUAL = 2.0, 60.0
 _DOWN = linalg.rotation_x(-math.pi / 2)
+#: A rotation, (4, 4), and a place.
+Pose = tuple[NDArray[np.float64], NDArray[np.float64]]
 #: A directional light shines down at this angle, from the right and from before.
 _SLOPE = linalg.multiply(
     linalg.rotation_y(math.radians(35.0)), linalg.rotation_x(math.radians(-50.0))
 )
 _LEVEL = np.eye(4)
-#: A new camera stands so far aside and above, in radians, and nearer by this factor.
+#: A new camera stands so far aside and above, in radians, and nearer by this factor; farther aside
+#: where there is one already.
 _ASIDE, _RAISED, _NEARER = 0.22, 0.15, 0.6
+_SIDES = (1, -1, 2, -2, 3, -3, 4, -4)
 
 
 class Standing(NamedTuple):
@@ -123,12 +127,10 @@ def usual_size(distance: float) -> float:
     return 10.0 ** math.floor(math.log10(distance / 4.0))
 
 
-def _stood(
-    scene: Scene, made: Any, view: Viewpoint, size: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _stood(scene: Scene, made: Any, view: Viewpoint, size: float) -> Pose:
     """Return the rotation, (4, 4), and the place of a new thing."""
     if isinstance(made, PerspectiveCamera):
-        return _camera_in_view(view)
+        return _camera_in_view(scene, view)
     axes, turned = home_axes(view.up).T, np.eye(4)
     turned[:3, :3] = axes
     if isinstance(made, Mesh):
@@ -136,16 +138,24 @@ def _stood(
         place = free_place(scene, view, high - low)
         return turned, place - axes[:, 1] * float(low[1])
     standing = _standing_of(made)
-    place = free_place(scene, view, np.full(3, size))
+    # As high as its icon, so that it stands beside what it would stand in.
+    room = np.array([1.0, standing.height + 1.0, 1.0]) * size
+    place = free_place(scene, view, room)
     place = place + axes[:, 1] * (standing.height * size)
     return linalg.multiply(turned, standing.turn), place
 
 
-def _camera_in_view(view: Viewpoint) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _camera_in_view(scene: Scene, view: Viewpoint) -> Pose:
     """Return the rotation and the place of a camera before one's own that sees nearly the same."""
+    taken, distance = places_without_surface(scene), _NEARER * view.distance
     turned = np.eye(4)
-    turned[:3, :3] = orbit_axes(view.up, view.azimuth - _ASIDE, max(view.elevation, _RAISED))
-    return turned, view.target + turned[:3, 2] * (_NEARER * view.distance)
+    for side in _SIDES:
+        azimuth = view.azimuth - _ASIDE * side
+        turned[:3, :3] = orbit_axes(view.up, azimuth, max(view.elevation, _RAISED))
+        place = view.target + turned[:3, 2] * distance
+        if not (np.abs(taken - place) < _ASIDE / 4.0 * distance).all(axis=1).any():
+            break
+    return turned, place
 
 
 def _made(scene: Scene, title: str, size: float) -> Any:

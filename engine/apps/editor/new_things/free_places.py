@@ -1,7 +1,8 @@
 """Finds places that are free: on the ground, in view, beside what stands there.
 
 In: a scene, a view, the size of what is to be placed. Out: a point on the ground. Places are the
-cells of a grid around the point that one looks at; boxes of nodes take cells.
+cells of a grid around the point that one looks at; boxes of nodes take cells, and so do the icons
+of lights, cameras and empties.
 """
 
 from __future__ import annotations
@@ -26,6 +27,10 @@ _LEVEL = 0.05
 #: Looking farther than this many distances of the view is looking at the horizon.
 _FAR = 3.0
 _NEARLY = 1e-6
+#: Half the side of an icon, in the size of what is placed.
+_ICON = 0.25
+#: What is flat and wider than this, in the size of what is placed, is a floor to stand on.
+_FLOOR = 8.0
 
 
 def free_place(scene: Scene, view: Viewpoint, size: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -36,7 +41,8 @@ def free_place(scene: Scene, view: Viewpoint, size: NDArray[np.float64]) -> NDAr
     scene : Scene
     view : Viewpoint
     size : (3,) float64
-        Of the box, in axes whose Y is up; the point is the middle of its underside.
+        Of the box, in axes whose Y is up; the point is the middle of its underside. What is flat
+        (0 high) finds room beneath boxes, but not where something flat lies.
 
     Returns
     -------
@@ -44,9 +50,11 @@ def free_place(scene: Scene, view: Viewpoint, size: NDArray[np.float64]) -> NDAr
         Where one looks, if there is no room anywhere near.
     """
     axes = home_axes(view.up)
-    step = APART * max(float(size[0]), float(size[2]), _NEARLY)
+    width = max(float(size[0]), float(size[2]), _NEARLY)
+    step = APART * width
     middle = _rounded(_looked_at(view, axes), step)
-    taken = _taken_cells(_boxes(scene, axes), middle, size, step)
+    boxes = np.concatenate([_boxes(scene, axes), _icons(scene, axes, width)])
+    taken = _taken_cells(boxes, middle, size, step)
     row, column = _nearest_free(taken)
     across, back = middle[0] + column * step, middle[2] + row * step
     return axes[0] * across + axes[2] * back
@@ -80,6 +88,22 @@ def _boxes(scene: Scene, axes: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([middles - halves, middles + halves], axis=1)
 
 
+def places_without_surface(scene: Scene) -> NDArray[np.float64]:
+    """Return where shown nodes stand that have no surface, none below them, (N, 3)."""
+    scene.data.update()
+    arrays = scene.data.arrays
+    columns = {name: arrays.columns[name][: arrays.count] for name in ("flags", "bounds", "world")}
+    ends = arrays.columns["first_child"][: arrays.count] < 0
+    bare = columns["bounds"][:, 0] > columns["bounds"][:, 3]
+    return columns["world"][(columns["flags"] & SHOWN != 0) & ends & bare][:, 3::4]
+
+
+def _icons(scene: Scene, axes: NDArray[np.float64], width: float) -> NDArray[np.float64]:
+    """Return the boxes of icons in the axes of the ground, (N, 2, 3)."""
+    middles = _along(axes, places_without_surface(scene))
+    return np.stack([middles - _ICON * width, middles + _ICON * width], axis=1)
+
+
 def _along(axes: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the parts of vectors, (N, 3), along axes, (3, 3): a row each."""
     return (vectors[:, np.newaxis] * axes).sum(axis=-1)
@@ -92,6 +116,9 @@ def _taken_cells(
     taken = np.zeros((2 * REACH + 1, 2 * REACH + 1), bool)
     slack = _NEARLY * step
     upright = (boxes[:, 0, 1] < size[1] - slack) & (boxes[:, 1, 1] > slack)
+    if size[1] < slack:
+        wide = (boxes[:, 1] - boxes[:, 0])[:, ::2].max(axis=1) > _FLOOR * step
+        upright |= (np.abs(boxes[:, :, 1]) < slack).all(axis=1) & ~wide
     low = (boxes[upright, 0][:, ::2] - size[::2] / 2 - middle[::2] + slack) / step
     high = (boxes[upright, 1][:, ::2] + size[::2] / 2 - middle[::2] - slack) / step
     first = np.clip(np.ceil(low) + REACH, 0, taken.shape[0]).astype(int)

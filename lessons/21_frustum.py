@@ -157,21 +157,19 @@ def from_above(chunks, kept, needed, height, matrix, eye=EYE):
 def steps(width=240, height=180, model=None, chunk=None, yfov=0.7):
     """Cut the town, or a model, into chunks of three sizes.
 
-    chunk: the side of the smallest chunks of a model, in its units; a 24th of it if left out.
+    chunk: the side of the smallest chunks; a 24th of a model, and 2 for the town, if left out.
     yfov: field of view of the camera, in radians.
     """
     eye, scale, size = EYE, 1, (width, height)
     lens = e3d.PerspectiveCamera(yfov, znear=0.1, zfar=60.0)
     if model is None:
-        town = buildings()
-        sides = [8, 4, 2]
-        chunks_of = {side: make_chunks(town, side) for side in sides}
+        make, whole, smallest = make_chunks, buildings(), 2
     else:
-        mesh, scale = load(model)
-        eye = EYE[0], max(EYE[1], 1.2 * mesh.bounds[1][1]), EYE[2]
-        smallest = CELLS / 24 if chunk is None else chunk * scale
-        sides = [4 * smallest, 2 * smallest, smallest]
-        chunks_of = {side: cut(mesh, side) for side in sides}
+        (whole, scale), make, smallest = load(model), cut, CELLS / 24
+        eye = EYE[0], max(EYE[1], 1.2 * whole.bounds[1][1]), EYE[2]
+    smallest = smallest if chunk is None else chunk * scale
+    sides = [4 * smallest, 2 * smallest, smallest]
+    chunks_of = {side: make(whole, side) for side in sides}
     matrix = clip_from_world(width, height, lens, eye)
     planes = planes_of(matrix)
     everything, _ = draw(chunks_of[sides[0]], size, eye, lens)
@@ -202,4 +200,4 @@ def steps(width=240, height=180, model=None, chunk=None, yfov=0.7):
 
 
 if __name__ == "__main__":
-    main(__file__, steps, numbers={"chunk": "side of a model's chunks, in its units"})
+    main(__file__, steps, numbers={"chunk": "side of the smallest chunks, in the model's units"})

@@ -200,6 +200,13 @@ def test_a_model_is_cut_into_chunks_of_any_size(side, monkeypatch):
     assert all("no pixel lost" in caption for caption in captions if "p-vertex" in caption)
 
 
+def test_the_town_is_cut_into_chunks_of_any_size(monkeypatch):
+    monkeypatch.syspath_prepend(str(LESSONS))
+    lesson = runpy.run_path(str(LESSONS / "21_frustum.py"))
+    *_, (told, _) = lesson["steps"](64, 48, chunk=3.0)
+    assert str(told).endswith(" chunks of 3 x 3, a colour each")
+
+
 def test_chunks_that_are_too_small_are_told(monkeypatch):
     monkeypatch.syspath_prepend(str(LESSONS))
     lesson = runpy.run_path(str(LESSONS / "21_frustum.py"))

@@ -93,6 +93,21 @@ def test_colors_follow_their_instances_and_the_picture_stays():
     assert (difference > 40).mean() < 0.01
 
 
+def test_a_scene_adds_all_nodes_of_them_as_it_adds_one():
+    meshes = e3d.detail.DetailedMeshes([([e3d.box()], 0.0)])
+    for made in (e3d.detail.DetailedInstances(levels(), np.eye(4)[np.newaxis]), meshes):
+        scene = e3d.Scene()
+        parent = scene.add(translation=(1.0, 0.0, 0.0))
+        node = scene.add(made, name="balls", parent=parent, scale=2.0, cast_shadows=False)
+        assert (node.name, node.parent, node.scale.tolist()) == ("balls", parent, [2.0, 2.0, 2.0])
+        assert node.children and not any(child.cast_shadows for child in node.children)
+    box = scene.add(e3d.box())
+    with pytest.raises(InvalidArgumentError, match="several nodes: add it by scene.add"):
+        box.object = made
+    with pytest.raises(InvalidArgumentError, match="obj must be Mesh"):
+        scene.add(e3d.detail.DetailedMeshes)
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [({"pixels": 0.0}, "pixels"), ({"pixels": math.nan}, "pixels"), ({"hysteresis": 1.0}, "hyst")],

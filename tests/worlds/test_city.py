@@ -145,7 +145,8 @@ def test_lamps_shine_above_pavements(town):
 
 def test_added_to_a_scene_it_is_a_node_a_district(town):
     scene = e3d.Scene()
-    group = town.add_to(scene)
+    group = scene.add(town)
+    assert group.name == "city"
     assert [node.object for node in group.children] == list(town.districts)
     frame = render(scene, size=(64, 48), outputs=("color", "object_id"))
     assert len(np.unique(frame.object_id)) > 3

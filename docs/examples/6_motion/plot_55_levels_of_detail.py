@@ -23,7 +23,7 @@ row, column = np.divmod(np.arange(800), 20)
 poses[:, 0, 3], poses[:, 2, 3] = 1.3 * (column - 9.5), -2.0 * row
 balls = e3d.detail.DetailedInstances(levels, poses, pixels=0.5)
 scene = e3d.Scene(background=(225, 230, 236), ambient=(130, 132, 138))
-balls.add_to(scene)
+scene.add(balls)
 scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.5), intensity=2.2))
 camera, pose = e3d.PerspectiveCamera(0.6), e3d.look_at((0, 2.6, 5.0), (0, 0, -8))
 balls.update(camera, pose, (480, 280))

@@ -8,7 +8,7 @@ in a fixed order of operations, computed on demand and cached until the node or 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NoReturn, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, NoReturn, Protocol, SupportsIndex, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,6 +39,11 @@ if TYPE_CHECKING:
 
     #: The objects that a node can hold.
     SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | Light
+
+    class SeveralNodes(Protocol):
+        """What adds several nodes below one."""
+
+        def add_to(self, scene: Scene) -> Node: ...
 
 
 @refuses_foreign_names

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from ..motion.clips import AnimationClip
     from ..motion.robots import Robot
     from .animation import Animator
-    from .nodes import SceneObject
+    from .nodes import SceneObject, SeveralNodes
 
 _DIM = linear(0.1, 0.1, 0.1)
 
@@ -134,7 +134,7 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
     @hinted
     def add(
         self,
-        obj: SceneObject | None = None,
+        obj: SceneObject | SeveralNodes | None = None,
         *,
         name: str | None = None,
         parent: Node | None = None,
@@ -153,7 +153,9 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         ----------
         obj : Mesh, InstancedMesh, Camera, a light of any kind, or None
             The same object may be added many times. None adds a group node, or a node whose
-            ``object`` is assigned later.
+            ``object`` is assigned later. What has a method ``add_to``, such as
+            `engine3d.worlds.World` and `engine3d.detail.DetailedInstances`, adds several nodes
+            below one.
         name : str, optional
             By default the object's name.
         parent : Node, optional
@@ -180,11 +182,12 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         ------
         InvalidArgumentError
         """
-        check_object(obj)
+        is_several = hasattr(type(obj), "add_to")
+        if not is_several:
+            check_object(obj)
         if parent is not None and not (isinstance(parent, Node) and parent._scene is self):
             raise InvalidArgumentError(f"parent must be a node of this scene, not {shown(parent)}")
-        if name is None:
-            name = getattr(obj, "name", "")
+        name = None if name is None else text(name, "name")
         if rotation is not None and euler is not None:
             raise InvalidArgumentError("give rotation or euler, not both")
         if euler is not None:
@@ -196,7 +199,8 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
         translation = None if translation is None else vector3(translation, "translation")
         rotation = None if rotation is None else check_rotation(rotation)
         scale = None if scale is None else check_scale(scale)
-        node = self.data.add(self, obj, text(name, "name"), parent)
+        add = _added_below if is_several else _added
+        node = add(self, obj, name, parent)
         arrays, slot = self.data.arrays, node._slot
         if pose is not None:
             arrays.set_pose(slot, pose)
@@ -204,9 +208,10 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
             arrays.set_translation(slot, translation)
         if rotation is not None or scale is not None:
             arrays.set_parts(slot, rotation, scale)
-        if flag(static, "static"):
-            node.static = True
-        node.cast_shadows, node.receive_shadows = cast_shadows, receive_shadows
+        for each in _with_all_below(node) if is_several else (node,):
+            if flag(static, "static"):
+                each.static = True
+            each.cast_shadows, each.receive_shadows = cast_shadows, receive_shadows
         return node
 
     def remove(self, node: Node) -> None:
@@ -328,3 +333,25 @@ def _take_animations(
 def _unfound(node: object) -> str:
     """Return the description of a non-node argument: usually `Scene.find` did not find its name."""
     return "None, which find() returns of an unknown name" if node is None else shown(node)
+
+
+def _added(scene: Scene, obj: Any, name: str | None, parent: Node | None) -> Node:
+    """Add one node."""
+    called = text(getattr(obj, "name", ""), "name") if name is None else name
+    return scene.data.add(scene, obj, called, parent)
+
+
+def _added_below(scene: Scene, obj: Any, name: str | None, parent: Node | None) -> Node:
+    """Add something that adds its own nodes; return the one above them."""
+    node = obj.add_to(scene)
+    if name is not None:
+        node.name = name
+    if parent is not None:
+        node.reparent(parent)
+    return node
+
+
+def _with_all_below(node: Node) -> Iterable[Node]:
+    yield node
+    for child in node.children:
+        yield from _with_all_below(child)

@@ -336,8 +336,8 @@ def box_of_shadows(arrays: Any) -> NDArray[np.float64]:
 def check_object(obj: Any) -> None:
     """Check that a node can hold an object."""
     if obj is not None and not isinstance(obj, _OBJECT_TYPES):
-        if hasattr(obj, "add_to"):  # several nodes
+        if hasattr(type(obj), "add_to"):  # several nodes
             kind = type(obj).__name__
-            raise InvalidArgumentError(f"a {kind} adds its own nodes: call its add_to(scene)")
+            raise InvalidArgumentError(f"a {kind} is several nodes: add it by scene.add")
         allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
         raise InvalidArgumentError(f"obj must be {allowed} or None (a group), not {shown(obj)}")

@@ -283,3 +283,12 @@ def test_fonts_are_copied_by_face_and_size():
     for other in (copy.copy(font), copy.deepcopy(font), pickle.loads(pickle.dumps(font))):
         assert (other.face, other.size) == (font.face, font.size) == ("mono", 787 / 64)
         assert np.array_equal(drawn("copied", other), drawn("copied", font))
+
+
+@pytest.mark.parametrize("width", range(80, 400, 20))
+def test_no_line_begins_or_ends_within_french_signs(width):
+    text = "Voici : « le moteur » ; que reste-t-il ? 3 % ! Rien, ni « lui », ni « elle »."
+    lines = e3d.Font("sans", 14).wrapped(text, width)
+    assert " ".join(lines) == text
+    assert all(line[0] not in ":;?!%»" and line[-1] != "«" for line in lines)
+    assert e3d.Font("sans", 14).wrapped("moteur » et", 50) == ["moteur", "» et"]

@@ -2,7 +2,8 @@
 
 import pytest
 
-from engine3d.apps.learn.captions import Caption, fields, unbroken
+from engine3d.apps.learn.captions import Caption, fields
+from engine3d.base.line_breaks import unbroken
 
 DIFFER = "{count:no pixel differs|# pixel differs|# pixels differ}"
 FRENCH = {
@@ -42,6 +43,7 @@ def test_french_lines_begin_with_no_colon():
     assert unbroken("le moteur : 3 % de « lui » ; ici ?") == (
         "le moteur\u00a0: 3\u00a0% de «\u00a0lui\u00a0»\u00a0; ici\u00a0?"
     )
+    assert unbroken("« lui », ici := là") == "«\u00a0lui\u00a0», ici := là"
 
 
 def test_fields_are_found():

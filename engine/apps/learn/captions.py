@@ -9,10 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from ...base.line_breaks import NO_BREAK, unbroken
+
 _FIELD = re.compile(r"\{(\w+)(?::([^{}]*))?\}")
-#: What French punctuation must not be parted from by the end of a line.
-_BEFORE, _AFTER = re.compile(r" (?=[:;?!»%](?:\s|$))"), re.compile(r"(?<=«) ")
-NO_BREAK = "\N{NO-BREAK SPACE}"
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -63,8 +62,3 @@ def number(value: float, form: str, language: str) -> str:
     if language == "fr":
         text = text.replace(",", NO_BREAK).replace(".", ",")
     return text.replace("-", MINUS)
-
-
-def unbroken(text: str) -> str:
-    """Return a French text whose colons and their like stay with the word before them."""
-    return _AFTER.sub(NO_BREAK, _BEFORE.sub(NO_BREAK, text))

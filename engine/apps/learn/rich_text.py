@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 
-from .captions import unbroken
+from ...base.line_breaks import unbroken
 
 #: A text and its kind: "plain", "bold", "italic" or "code".
 Span = tuple[str, str]

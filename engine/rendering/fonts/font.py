@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._native import canvas as native
+from ...base.line_breaks import last_break
 from ...base.numbers import real, shown
 from ...base.validation import FixedNames, choose, whole_number
 from ...errors import InvalidArgumentError
@@ -120,8 +121,7 @@ class Font(FixedNames):
         for line in checked_text(string).split("\n"):
             while self.width(line) > most:
                 end = self._most(line, most)
-                space = line.rfind(" ", 1, end + 1)
-                end = space if space > 0 else end
+                end = last_break(line, end) or end
                 lines.append(line[:end].rstrip())
                 line = line[end:].lstrip()
             lines.append(line)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from imgui_bundle import imgui as _imgui
 
 from ....base.language import translated, translated_keys
+from ....base.line_breaks import unbroken
 
 #: Functions whose first argument is a label.
 LABELLED = (
@@ -75,7 +76,7 @@ def _labelled(function):
 def _remarking(function):
     @functools.wraps(function)
     def call(text):
-        return function(translated(text))
+        return function(unbroken(translated(text)))
 
     return call
 

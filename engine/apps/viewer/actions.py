@@ -239,7 +239,7 @@ def cycle_debug(viewer, step: int) -> None:
     """Switch to the next debug drawing of culling: boxes, their trees, the frustum, or none."""
     drawing = following(viewer.view_renderer.culling.drawing, DEBUG_DRAWINGS, step)
     viewer.view_renderer.choose_debug(drawing, viewer.view)
-    viewer.say("drawn besides: {what}", what=translated_choice("drawing", drawing or "nothing"))
+    viewer.say("also drawn: {what}", what=translated_choice("drawing", drawing or "nothing"))
 
 
 def toggle_textures(viewer, step: int) -> None:

@@ -101,6 +101,20 @@ def test_the_view_tells_how_many_objects_it_draws(editor):
     assert "draws" in text and "triangles" in text and " ms" in text
 
 
+def test_the_grid_is_no_object_and_no_draw_of_the_view(editor):
+    workspace, texts = editor.workspace, []
+    workspace.scene.add(e3d.DirectionalLight())
+    for shown in (False, True):
+        editor._scene._overlays.shown["grid"] = shown
+        settle(editor)
+        texts.append(editor._scene._figures.text(editor._scene._frame).split(", ")[2:])
+    assert texts[0] == texts[1]
+    for node in workspace.scene.nodes:
+        node.visible = False
+    settle(editor)
+    assert ", 0 draws, " in editor._scene._figures.text(editor._scene._frame)
+
+
 def test_a_material_is_dropped_on_what_is_under_the_mouse(editor):
     workspace = editor.workspace
     panel = editor._panels["Materials"]

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...._native.scene_graph import ALIVE
+from ...._native.scene_graph import ALIVE, SHOWN
 from ....base.language import translated, translated_count, translated_number
 from ....model.geometry.mesh import Mesh
 from ....model.motion.posed_mesh import PosedMesh
@@ -49,16 +49,17 @@ class SceneFigures:
         stats, rate = frame.stats, self._rate.value
         self.shows_rate = rate > 0.0
         held = objects_of(self._workspace.scene)
-        beside = max(stats["instances"] - held, 0)  # the grid, and the ground of a look
+        # The grid, and the ground of a look: each is an instance, and a draw.
+        beside = max(stats["instances"] - objects_of(self._workspace.scene, SHOWN), 0)
         parts = [
             translated("{rate:.0f} fps", rate=rate) if rate else translated("at rest"),
             f"{translated_number(1e3 * self._seconds, '.1f')} ms",
             translated(
                 "{drawn:,} of {count:,} objects drawn",
-                drawn=stats["instances_drawn"] - beside,
+                drawn=max(stats["instances_drawn"] - beside, 0),
                 count=held,
             ),
-            translated_count("{count:,} draw", "{count:,} draws", stats["draws"]),
+            translated_count("{count:,} draw", "{count:,} draws", max(stats["draws"] - beside, 0)),
             translated(
                 "{drawn:,} of {total:,} triangles",
                 drawn=stats["triangles_drawn"],
@@ -72,11 +73,14 @@ class SceneFigures:
         return text
 
 
-def objects_of(scene: Scene) -> int:
-    """Return how many objects a scene has to draw: meshes, once for each place of one."""
+def objects_of(scene: Scene, which: int = ALIVE) -> int:
+    """Return how many objects a scene has to draw: meshes, once for each place of one.
+
+    Nodes count that have a flag: all of them by default, or those that show.
+    """
     arrays, held = scene.data.arrays, scene.data.objects.objects
     columns = {name: arrays.columns[name][: arrays.count] for name in ("object", "flags")}
-    drawn = columns["object"][(columns["flags"] & ALIVE != 0) & (columns["object"] >= 0)]
+    drawn = columns["object"][(columns["flags"] & which != 0) & (columns["object"] >= 0)]
     counts = np.bincount(drawn, minlength=len(held)).tolist()
     return sum(count * _places_of(obj) for obj, count in zip(held, counts, strict=False) if count)
 

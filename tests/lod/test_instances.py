@@ -139,3 +139,20 @@ def test_a_view_that_is_none(arguments, message):
     for detailed in (spheres, meshes):
         with pytest.raises(InvalidArgumentError, match=message):
             detailed.update(*arguments)
+
+
+def test_several_nodes_keep_the_flags_that_they_add_themselves():
+    class Row:
+        def add_to(self, scene):
+            top = scene.add(name="row")
+            scene.add(e3d.box(), name="one", parent=top, cast_shadows=False)
+            scene.add(e3d.box(), name="two", parent=top, static=True)
+            return top
+
+    scene = e3d.Scene()
+    scene.add(Row(), receive_shadows=False)
+    one, two = scene.find("one"), scene.find("two")
+    assert (one.cast_shadows, one.receive_shadows, one.static) == (False, False, False)
+    assert (two.cast_shadows, two.receive_shadows, two.static) == (True, False, True)
+    with pytest.raises(e3d.InvalidArgumentError, match="static must be"):
+        scene.add(e3d.box(), static="yes")

@@ -20,14 +20,14 @@ from ...base.checked_containers import CheckedDict
 from ...base.linalg.quaternions import quaternion_of_turns
 from ...base.notebook_pictures import ShownInNotebooks
 from ...base.numbers import shown
-from ...base.validation import flag, text, vector3
+from ...base.validation import text, vector3
 from ...choices import ColorLike
 from ...errors import InvalidArgumentError
 from ...model.materials.linear_colors import linear
 from ..environments.environment import Environment
 from ._queries import SceneQueries
 from .gradients import Gradient
-from .nodes import Node, check_euler, check_pose, check_rotation, check_scale
+from .nodes import Node, check_euler, check_pose, check_rotation, check_scale, with_below
 from .scene_data import SceneData, check_object
 from .selection import NodeSelection
 from .surroundings import Surroundings
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from .animation import Animator
     from .nodes import SceneObject, SeveralNodes
 
+_USUAL_FLAGS = {"cast_shadows": True, "receive_shadows": True, "static": False}
 _DIM = linear(0.1, 0.1, 0.1)
 
 
@@ -208,10 +209,12 @@ class Scene(ShownInNotebooks, Surroundings, SceneQueries):
             arrays.set_translation(slot, translation)
         if rotation is not None or scale is not None:
             arrays.set_parts(slot, rotation, scale)
-        for each in _with_all_below(node) if is_several else (node,):
-            if flag(static, "static"):
-                each.static = True
-            each.cast_shadows, each.receive_shadows = cast_shadows, receive_shadows
+        flags = {"cast_shadows": cast_shadows, "receive_shadows": receive_shadows, "static": static}
+        for each in with_below(node) if is_several else (node,):
+            for flag, value in flags.items():
+                # What is left at its default stays as `add_to` set it.
+                if value is not _USUAL_FLAGS[flag]:
+                    setattr(each, flag, value)
         return node
 
     def remove(self, node: Node) -> None:
@@ -349,9 +352,3 @@ def _added_below(scene: Scene, obj: Any, name: str | None, parent: Node | None) 
     if parent is not None:
         node.reparent(parent)
     return node
-
-
-def _with_all_below(node: Node) -> Iterable[Node]:
-    yield node
-    for child in node.children:
-        yield from _with_all_below(child)

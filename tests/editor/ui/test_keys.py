@@ -69,11 +69,11 @@ def test_time_goes_on_until_space_is_pressed_again(editor):
     workspace.document.animator.spin(base, period=5)
     still = settle(editor)
     press(editor, "Space")
-    assert workspace.moments > 0 and editor._pictures_due
+    assert workspace.document.animator.time > 0 and editor._pictures_due
     press(editor, "Space")
-    moments, paused = workspace.moments, settle(editor)
+    time, paused = workspace.document.animator.time, settle(editor)
     assert (paused != still).any() and (settle(editor) == paused).all()
-    assert workspace.moments == moments and not workspace.document.is_modified
+    assert workspace.document.animator.time == time and not workspace.document.is_modified
     workspace.rewind()
     assert base.rotation.tolist() == [0, 0, 0, 1]
 

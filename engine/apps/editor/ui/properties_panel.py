@@ -25,7 +25,7 @@ from .properties.light_fields import draw_lights
 from .properties.material_fields import MaterialFields
 from .properties.scene_fields import draw_scene
 from .properties.shape_fields import ShapeFields
-from .properties.transform_fields import draw_transform
+from .properties.transform_fields import TransformFields
 from .translated_imgui import imgui
 from .workspace import Workspace
 
@@ -49,7 +49,8 @@ class PropertiesPanel:
         self._materials = MaterialFields(workspace, files, self._fields)
         self._seen: Node | None = None
         self._kinds: tuple[tuple, set[str]] = ((), set())
-        self._motion = MotionFields(workspace)
+        self._motion = MotionFields(workspace, self._fields)
+        self._transform = TransformFields(workspace, self._fields)
 
     def draw(self) -> None:
         """Lay the panel out."""
@@ -70,7 +71,7 @@ class PropertiesPanel:
 
     def _draw_nodes(self, nodes: Sequence[Node]) -> None:
         self._draw_head(nodes)
-        draw_transform(self._workspace, self._fields, nodes)
+        self._transform.draw(nodes)
         kinds = self._kinds_of(nodes)
         if kinds == {"light"}:
             draw_lights(self._workspace, self._fields, [node.object for node in nodes])
@@ -86,9 +87,7 @@ class PropertiesPanel:
         if self._kinds_of(nodes) == {"mesh"}:  # it may have gone meanwhile
             self._materials.draw(nodes)
             draw_colliders(self._fields, nodes)
-        imgui.push_item_width(-imgui.get_font_size() * 7)
         self._motion.draw(nodes[-1])
-        imgui.pop_item_width()
         self._draw_switches(nodes)
 
     def _draw_head(self, nodes: Sequence[Node]) -> None:
@@ -100,9 +99,8 @@ class PropertiesPanel:
             )
         else:
             fields.label("Name")
-            flags = imgui.InputTextFlags_.enter_returns_true
-            entered, name = imgui.input_text("##Name", nodes[0].name, flags)
-            if entered and name != nodes[0].name:
+            name = fields.text(nodes[0].name)
+            if name is not None and name != nodes[0].name:
                 fields.set(nodes, {"name": name}, "Rename")
         fields.flag(nodes, "visible", "Visible")
 

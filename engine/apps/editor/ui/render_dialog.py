@@ -20,7 +20,7 @@ from ....model.scene.cameras import Camera
 from ....model.scene.nodes import Node
 from ..render_job import RenderJob, Shot
 from .files import Files
-from .middle import begin_dialog
+from .middle import begin_dialog, label_before
 from .translated_imgui import imgui
 from .translated_imgui import label as labelled
 from .workspace import Workspace
@@ -29,6 +29,7 @@ _WHAT = {"picture": "Picture", "turn": "Turn", "motion": "Motion"}
 _MOST_SIDE, _MOST_PICTURES, _MOST_FPS = 16384, 5000, 50
 #: Pictures of the window until it shows that the drawing has ended.
 SETTLING = 3
+_LABELS = 12.0  # letters that labels take
 _TITLE, _PROGRESS = "Render", "Rendering"
 
 
@@ -46,8 +47,6 @@ class Choices:
     samples : int
     pictures : int
         Of a turn.
-    fps : int
-        Pictures a second.
     """
 
     what: str = "picture"
@@ -56,7 +55,6 @@ class Choices:
     look: LookName = "studio"
     samples: Samples = 4
     pictures: int = 72
-    fps: int = 24
 
 
 class RenderDialog:
@@ -126,25 +124,28 @@ class RenderDialog:
             imgui.end_disabled()
             imgui.same_line()
         imgui.new_line()
-        changed, size = imgui.input_int2("Size in pixels", list(chosen.size))
+        label_before("Size in pixels", _LABELS)
+        changed, size = imgui.input_int2("##size", list(chosen.size))
         if changed:
             chosen.size = tuple(min(max(side, 1), _MOST_SIDE) for side in size)
         self._draw_camera()
         chosen.look = _choice("Look without lights", chosen.look, get_args(LookName))
         chosen.samples = _choice("Samples a pixel", chosen.samples, get_args(Samples))
         if chosen.what == "turn":
-            _, chosen.pictures = imgui.input_int("Pictures", chosen.pictures, 12)
+            label_before("Pictures", _LABELS)
+            _, chosen.pictures = imgui.input_int("##pictures", chosen.pictures, 12)
             chosen.pictures = min(max(chosen.pictures, 2), _MOST_PICTURES)
         if chosen.what != "picture":
-            _, chosen.fps = imgui.input_int("Pictures a second", chosen.fps)
-            chosen.fps = min(max(chosen.fps, 1), _MOST_FPS)
+            label_before("Pictures a second", _LABELS)
+            _, fps = imgui.input_int("##fps", self._workspace.display.fps)
+            self._workspace.display.fps = fps = min(max(fps, 1), _MOST_FPS)
             count = self._count()
             imgui.text_disabled(
                 translated_count(
                     "{count:,} picture, {seconds:.1f} s",
                     "{count:,} pictures, {seconds:.1f} s",
                     count,
-                    seconds=count / chosen.fps,
+                    seconds=count / fps,
                 )
             )
         imgui.pop_item_width()
@@ -163,7 +164,8 @@ class RenderDialog:
         chosen, cameras = self.choices, self._workspace.scene.data.cameras.values()
         view, unnamed = translated("the view"), translated("unnamed")
         name = view if chosen.camera is None else chosen.camera.name or unnamed
-        if not imgui.begin_combo("Through", name):
+        label_before("Through", _LABELS)
+        if not imgui.begin_combo("##camera", name):
             return
         if imgui.selectable(view, chosen.camera is None)[0]:
             chosen.camera = None
@@ -193,7 +195,7 @@ class RenderDialog:
             size=chosen.size,
             look=chosen.look,
             samples=chosen.samples,
-            fps=float(chosen.fps),
+            fps=float(self._workspace.display.fps),
         )
 
     def shots(self) -> list[Shot]:
@@ -217,7 +219,7 @@ class RenderDialog:
             return 1
         if self.choices.what == "turn":
             return self.choices.pictures
-        wanted = round(self._workspace.document.length * self.choices.fps)
+        wanted = round(self._workspace.document.length * self._workspace.display.fps)
         return min(max(wanted, 2), _MOST_PICTURES)
 
     def _shot(self, angle: float) -> Shot:
@@ -270,4 +272,5 @@ class RenderDialog:
 def _choice(label: str, now: Any, choices: tuple) -> Any:
     """Lay out a choice; return the chosen one."""
     names = [translated_choice("look", str(each)) for each in choices]
-    return choices[imgui.combo(label, choices.index(now), names)[1]]
+    label_before(label, _LABELS)
+    return choices[imgui.combo(f"##{label}", choices.index(now), names)[1]]

@@ -19,6 +19,8 @@ from ....rendering.frame import Frame
 from ....stage.overlays.frame_times import FrameRate
 from .workspace import Workspace
 
+_NEARLY = 1e-6  # of a frame, which rounding may cost
+
 
 class SceneFigures:
     """Counts the pictures of a view.
@@ -68,8 +70,9 @@ class SceneFigures:
         ]
         text = ", ".join(parts)
         if self._workspace.document.moves:
-            shown, count = self._workspace.document.animator.time, self._workspace.moments
-            text += translated(", {time:.2f} s, frame {count}", time=shown, count=count)
+            shown = self._workspace.document.animator.time
+            frame_number = int(shown * self._workspace.display.fps + _NEARLY)
+            text += translated(", {time:.2f} s, frame {count}", time=shown, count=frame_number)
         return text
 
 

@@ -9,6 +9,7 @@ from typing import get_args
 
 from ....base.language import translated, translated_choice, translated_keys
 from ....choices import LookName, Mode
+from .middle import label_before
 from .overlays import Overlays
 from .style import scaled
 from .translated_imgui import imgui
@@ -25,6 +26,7 @@ _STEPS = {
     "scale": ("Scale, per cent", 0.5),
 }
 _LEAST, _MOST = 1e-4, 1e6
+_LABELS = 9.0  # letters that they take
 
 
 def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
@@ -119,10 +121,11 @@ def _draw_steps(workspace: Workspace) -> None:
     if not imgui.begin_popup("steps"):
         return
     for tool, (label, speed) in _STEPS.items():
+        label_before(label, _LABELS)
         imgui.set_next_item_width(imgui.get_font_size() * 6)
         clamp = imgui.SliderFlags_.always_clamp
         changed, step = imgui.drag_float(
-            label, workspace.tools.steps[tool], speed, _LEAST, _MOST, "%.4g", clamp
+            f"##{label}", workspace.tools.steps[tool], speed, _LEAST, _MOST, "%.4g", clamp
         )
         if changed:
             workspace.tools.steps[tool] = float(f"{step:.4g}")  # as displayed

@@ -64,13 +64,16 @@ class Tools:
     is_local : bool
         Whether tools work along the axes of the node.
     snaps : bool
+    is_uniform : bool
+        Whether one number of a scale changes the others in proportion.
     steps : dict of str to float
-        What tools snap to: units, degrees, per cent.
+        What tools snap to, and how far keys go: units, degrees, per cent.
     """
 
     chosen: str = "select"
     is_local: bool = False
     snaps: bool = False
+    is_uniform: bool = False
     steps: dict[str, float] = field(
         default_factory=lambda: {"move": 0.25, "rotate": 15.0, "scale": 10.0}
     )
@@ -92,6 +95,12 @@ class Panels:
         Whether the choice of scenes to start from, or the list of keys, is open.
     goes_to_menus : bool
         Whether the keyboard is to go to the menu bar.
+    goes_to : str
+        The panel that the keyboard is to go to; "" for none.
+    goes_to_rows : bool
+        Whether the keyboard is to go to the rows of the tree.
+    goes_to_search : bool
+        Whether the keyboard is to go to the search of the tree.
     """
 
     closed: set[str] = field(default_factory=set)
@@ -100,6 +109,9 @@ class Panels:
     offers_start: bool = False
     shows_keys: bool = False
     goes_to_menus: bool = False
+    goes_to: str = ""
+    goes_to_rows: bool = False
+    goes_to_search: bool = False
 
 
 @dataclass
@@ -117,6 +129,8 @@ class Display:
         Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
     culls : bool
         Whether what is out of view is left out before it is drawn: the picture is the same.
+    fps : int
+        Pictures a second of rendered motion, by which the view counts frames.
     """
 
     mode: Mode = "lit"
@@ -124,6 +138,7 @@ class Display:
     look: LookName | None = None
     as_rendered: bool = False
     culls: bool = True
+    fps: int = 24
 
     @property
     def worn_look(self) -> LookName:
@@ -146,8 +161,6 @@ class Workspace:
     panels : Panels
     plays : bool
         Whether time goes on.
-    moments : int
-        How many pictures moved time on since the document was opened.
     lines_to_run : list of str
         Of Python, that were entered and did not run yet.
     guard : callable
@@ -183,7 +196,7 @@ class Workspace:
             self._autosave.discard()
         self.document = document
         document.prompt.guard = lambda: self.guard()
-        self.plays, self.moments = False, 0
+        self.plays = False
         self.panels.offers_start = False  # by keys, a file may be opened behind the choice
         self._autosave = Autosave(document)
         self.hierarchy = Hierarchy(document.scene)
@@ -342,7 +355,6 @@ class Workspace:
         """Advance the time, if it plays."""
         if self.is_moving:
             self.document.animator.advance(min(seconds, LONGEST_STEP), self.view.position())
-            self.moments += 1
 
     def play_or_pause(self) -> None:
         """Start or pause the time."""
@@ -365,6 +377,16 @@ class Workspace:
         """Look from one of the standard views."""
         self.through.leave()
         look_from(self.view, name)
+
+    def turn(self, azimuth: float, elevation: float) -> None:
+        """Turn the view around what it looks at, by angles in radians."""
+        self.through.leave()
+        self.orbit.turn(azimuth, elevation)
+
+    def approach(self, steps: float) -> None:
+        """Bring the view nearer, by steps of the wheel."""
+        self.through.leave()
+        self.orbit.dolly(steps)
 
     def toggle_orthographic(self) -> None:
         """Look with or without perspective."""

@@ -14,6 +14,7 @@ from .....model.materials.material import Material
 from ....imgui_painter.imgui_painter import ImguiPainter
 from ...resource_list import Entry
 from ..panel_layout import begin_panel
+from ..properties.fields import Fields
 from ..shown_thumbnails import ShownThumbnails
 from ..style import scaled
 from ..translated_imgui import imgui
@@ -53,6 +54,7 @@ class MaterialsPanel:
         self._workspace = workspace
         self._thumbnails = ShownThumbnails(painter, round(scaled(PICTURE)))
         self._draw_values = draw_values
+        self._fields = Fields(workspace)
         self._chosen: Material | None = None
         self._deadline = 0.0
         self.is_waiting = False
@@ -141,10 +143,10 @@ class MaterialsPanel:
     def _draw_chosen(self, material: Material) -> None:
         workspace = self._workspace
         imgui.push_id(str(id(material)))
-        imgui.push_item_width(-9.0 * imgui.get_font_size())
-        flags = imgui.InputTextFlags_.enter_returns_true
-        entered, name = imgui.input_text("Name", material.name, flags)
-        if entered:
+        fields = self._fields
+        fields.label("Name")
+        name = fields.text(material.name)
+        if name is not None:
             actions.rename(workspace, material, name)
         for kind in _KINDS:
             is_physical = kind == "physical"
@@ -158,5 +160,4 @@ class MaterialsPanel:
             workspace.document.selection.set(users)
         imgui.end_disabled()
         self._draw_values(material)
-        imgui.pop_item_width()
         imgui.pop_id()

@@ -20,6 +20,7 @@ from .....model.scene.animation import Spin, Track
 from .....model.scene.nodes import Node
 from ...motion_commands import NAMES, with_repeat
 from ...motion_copies import motions_in
+from ..properties.fields import LABEL_LETTERS, Fields
 from ..translated_imgui import imgui
 from ..workspace import Workspace
 from . import motion_actions as actions
@@ -44,10 +45,11 @@ class MotionFields:
     Parameters
     ----------
     workspace : Workspace
+    fields : Fields
     """
 
-    def __init__(self, workspace: Workspace) -> None:
-        self._workspace = workspace
+    def __init__(self, workspace: Workspace, fields: Fields) -> None:
+        self._workspace, self._fields = workspace, fields
         self._drag: Hashable = None
         self._search = ""
 
@@ -121,7 +123,8 @@ class MotionFields:
         origin = name = translated("the origin of the parent")
         if orbit.is_about_node:
             name = translated("what is gone") if about is None else _name(about)
-        if imgui.begin_combo("About", name):
+        self._fields.label("About")
+        if imgui.begin_combo("##About", name):
             imgui.set_next_item_width(-1.0)
             _, self._search = imgui.input_text_with_hint("##search", "Search", self._search)
             if imgui.selectable(origin, not orbit.is_about_node)[0]:
@@ -159,13 +162,15 @@ class MotionFields:
         phase = self._phase(path.phase)
         if phase is not None:
             change(phase=phase)
-        if imgui.begin_combo("At the end it", translated(_ENDS[path.end])):
+        self._fields.label("At the end it")
+        if imgui.begin_combo("##At the end it", translated(_ENDS[path.end])):
             for end, says in _ENDS.items():
                 if imgui.selectable(translated(says), end == path.end)[0] and end != path.end:
                     change(end=end)
             imgui.end_combo()
         nothing = translated("nothing")
-        if imgui.begin_combo("Faces ahead", path.forward or nothing):
+        self._fields.label("Faces ahead")
+        if imgui.begin_combo("##Faces ahead", path.forward or nothing):
             for forward in (None, *FORWARDS):
                 is_now = forward == path.forward
                 if imgui.selectable(forward or nothing, is_now)[0] and not is_now:
@@ -235,7 +240,8 @@ class MotionFields:
 
     def _number(self, label: str, value: float, speed: float, low: float) -> float | None:
         """Lay out a number; return it if it changed."""
-        changed, new = imgui.drag_float(label, value, speed, low, _MOST, "%.4g")
+        self._fields.label(label)
+        changed, new = imgui.drag_float(f"##{label}", value, speed, low, _MOST, "%.4g")
         self._follow_drag()
         return max(new, low) if changed else None
 
@@ -251,20 +257,22 @@ class MotionFields:
         return None if period is None else sign * period
 
     def _phase(self, value: float) -> float | None:
-        changed, new = imgui.drag_float("Phase, turns", value, 0.005, -1e3, 1e3, "%.3f")
+        self._fields.label("Phase, turns")
+        changed, new = imgui.drag_float("##Phase, turns", value, 0.005, -1e3, 1e3, "%.3f")
         self._follow_drag()
         return new if changed else None
 
     def _axis(self, axis: Sequence[float]) -> list[float] | None:
         """Lay out an axis: buttons of the usual ones, and three numbers."""
-        chosen = None
+        chosen, letter = None, imgui.get_font_size()
         for name, usual in _AXES.items():
             if imgui.radio_button(name, tuple(axis) == usual):
                 self._drag = None
                 chosen = list(usual)
             imgui.same_line()
         imgui.new_line()
-        changed, new = imgui.drag_float3("Axis", list(map(float, axis)), 0.01)
+        self._fields.label("Axis", imgui.get_content_region_avail().x - LABEL_LETTERS * letter)
+        changed, new = imgui.drag_float3("##Axis", list(map(float, axis)), 0.01)
         self._follow_drag()
         return chosen or (new if changed and any(new) else None)
 

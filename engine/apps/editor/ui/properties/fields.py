@@ -59,6 +59,11 @@ class Fields:
         """Assign values to things, as part of the drag that goes on."""
         self._workspace.do(SetEach(each, translated(label)), drag=self._drag)
 
+    @property
+    def drag_key(self) -> Hashable:
+        """What commands of the present drag share; another one for each drag."""
+        return self._drag
+
     def follow_drag(self) -> None:
         """Note that the mouse grabbed the last item."""
         if imgui.is_item_activated():
@@ -123,6 +128,11 @@ class Fields:
 
     # Values
 
+    def text(self, now: str) -> str | None:
+        """Lay out a text; return another one when it was entered, or left, but not by Esc."""
+        new = imgui.input_text("##text", now)[1]
+        return new if imgui.is_item_deactivated_after_edit() else None
+
     def numbers(
         self,
         label: str,
@@ -168,7 +178,7 @@ class Fields:
         self, things: Sequence[Any], name: str, label: str, speed: float, factor: float = 1.0
     ) -> None:
         """Lay out an attribute that is a few numbers; those not touched stay to the bit."""
-        rows = _rows(things, lambda thing: [float(value) for value in getattr(thing, name)])
+        rows = rows_of(things, lambda thing: [float(value) for value in getattr(thing, name)])
         changed = self.numbers(label, rows, speed, factor)
         if changed is None:
             return
@@ -189,7 +199,7 @@ class Fields:
         if now is None or not math.isfinite(now):
             self.value(label, translated("none") if now is None else f"{now:g}")
             return
-        rows = _rows(things, lambda thing: [getattr(thing, name)])
+        rows = rows_of(things, lambda thing: [getattr(thing, name)])
         changed = self.numbers(label, rows, speed, factor, low, high)
         if changed is not None:
             self.drag((thing, {name: changed[0]}) for thing in things)
@@ -296,7 +306,7 @@ class Fields:
         return now, not all(same(getattr(thing, name), now) for thing in things)
 
 
-def _rows(things: Sequence[Any], numbers_of: Callable[[Any], list[Any]]) -> list[list[Any]]:
+def rows_of(things: Sequence[Any], numbers_of: Callable[[Any], list[Any]]) -> list[list[Any]]:
     """Return the numbers of each thing; of too many those of the last, after what differs."""
     if len(things) <= MOST_COMPARED:
         return [numbers_of(thing) for thing in things]

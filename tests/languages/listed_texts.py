@@ -91,7 +91,7 @@ def of_editor():
     from engine3d.apps.editor.new_things.adding import AREA_SIZES, GROUPS
     from engine3d.apps.editor.new_things.starts import STARTS
     from engine3d.apps.editor.ui import properties_panel, render_dialog, scene_tools
-    from engine3d.apps.editor.ui.keys_window import MOUSE
+    from engine3d.apps.editor.ui.keys_window import KEYBOARD, MOUSE
     from engine3d.apps.editor.ui.materials import materials_panel
     from engine3d.apps.editor.ui.motion.motion_fields import _ENDS
     from engine3d.apps.editor.ui.overlays import SHOWN
@@ -105,7 +105,7 @@ def of_editor():
     yield from _plain(row.title for row in PARAMETERS.values())
     yield from _plain(tool.capitalize() for tool in scene_tools.TOOLS)
     yield from _plain(title for title, _ in SHOWN.values())
-    yield from _plain(text for row in MOUSE for text in row)
+    yield from _plain(text for row in (*MOUSE, *KEYBOARD) for text in row)
     yield from _plain(text for start in STARTS for text in (start.title, start.hint))
     yield from _plain(_ENDS.values())
     yield from _plain(render_dialog._WHAT.values())

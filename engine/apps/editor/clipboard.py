@@ -44,8 +44,8 @@ class Clipboard:
         self._text, self._copied = content.decode("ascii"), scene
         return self._text, told
 
-    def paste(self, scene: Scene, text: str) -> AddNodes:
-        """Return the command that adds the nodes of a text to a scene.
+    def paste(self, scene: Scene, text: str, parent: Node | None = None) -> AddNodes:
+        """Return the command that adds the nodes of a text to a scene, at the top or below a node.
 
         Raises
         ------
@@ -58,11 +58,13 @@ class Clipboard:
         roots = [node for node in copied.nodes if node.parent is None]
         if not roots:
             raise FileFormatError("the clipboard holds no nodes")
-        return AddNodes(
-            scene,
-            lambda scene: copy_nodes(scene, dict.fromkeys(roots)),
-            counted(translated("Paste"), roots),
-        )
+
+        def add(scene: Scene) -> None:
+            for node in copy_nodes(scene, dict.fromkeys(roots)):
+                if parent is not None:
+                    node.reparent(parent, keep_world_pose=True)
+
+        return AddNodes(scene, add, counted(translated("Paste"), roots))
 
 
 def _scene_of(text: str) -> Scene:

@@ -83,3 +83,62 @@ def _box(scene: Scene, node) -> NDArray[np.float64] | None:
 def steps_of_turn(degrees: float) -> float:
     """Return a step for angles in radians."""
     return math.radians(positive(degrees, "degrees"))
+
+
+#: What arrow keys do: the axis (right, up, towards the eye) and the sign of moves and of turns.
+NUDGES = {
+    "left_arrow": ((0, -1.0), (1, -1.0)),
+    "right_arrow": ((0, 1.0), (1, 1.0)),
+    "up_arrow": ((2, -1.0), (0, -1.0)),
+    "down_arrow": ((2, 1.0), (0, 1.0)),
+    "page_up": ((1, 1.0), (2, 1.0)),
+    "page_down": ((1, -1.0), (2, -1.0)),
+}
+_SMALLER = ("left_arrow", "down_arrow", "page_down")
+
+
+def axes_towards(view: NDArray[np.float64], up: ArrayLike) -> NDArray[np.float64]:
+    """Return the axes of the world that are nearest to right, up and towards the eye, as columns.
+
+    Parameters
+    ----------
+    view : (3, 3) float64
+        The axes of the camera, as columns.
+    up : (3,) float
+        An axis of the world.
+    """
+    upward = vector3(up, "up")
+    flat = view[:, 0] * (np.abs(upward) < 0.5)  # the eye's right is level
+    right = np.zeros(3)
+    at = int(np.argmax(np.abs(flat)))
+    right[at] = np.sign(flat[at]) or 1.0
+    return np.stack([right, upward, np.cross(right, upward)], axis=1)
+
+
+def nudged(
+    tool: str, key: str, axes: NDArray[np.float64], step: float, center: ArrayLike
+) -> NDArray[np.float64]:
+    """Return the matrix by which an arrow key changes the world, (4, 4) float64.
+
+    Parameters
+    ----------
+    tool : str
+        ``"move"``, ``"rotate"`` or ``"scale"``; the last acts along all axes alike.
+    key : str
+        Of `NUDGES`.
+    axes : (3, 3) float64
+        Right, up and towards the eye, as columns.
+    step : float
+        In units, degrees or per cent.
+    center : (3,) float
+        What is turned and scaled about.
+    """
+    move, turn = NUDGES[key]
+    if tool == "move":
+        axis, sign = move
+        return linalg.translation(axes[:, axis] * sign * step)
+    if tool == "rotate":
+        axis, sign = turn
+        return turned(axes[:, axis], sign * steps_of_turn(step), center)
+    factor = 1.0 + step / 100.0
+    return scaled(np.full(3, 1.0 / factor if key in _SMALLER else factor), center)

@@ -1,8 +1,13 @@
 """Properties shows what is selected; what it sets, fog and colliders, fits the scene."""
 
+import ast
+from pathlib import Path
+
+import numpy as np
 from editor.ui.editor_hands import click, do, find, middle_of, press, settle
 
 from engine3d import events
+from engine3d.apps.editor import ui
 from engine3d.apps.editor.ui.properties import fields, fog_fields
 from engine3d.apps.editor.ui.properties.collider_fields import COLLIDERS, KINDS
 from engine3d.apps.editor.value_commands import SetValues
@@ -68,3 +73,38 @@ def test_a_click_on_a_number_lets_one_type_it(editor, monkeypatch):
     assert editor.workspace.document.selection.nodes == (cab,)
     press(editor, "Z", control=True)
     assert cab.translation.tolist() == before.tolist()
+
+
+def test_one_number_of_a_uniform_scale_changes_the_others_in_proportion(editor):
+    workspace, cab, base = editor.workspace, find(editor, "Cab"), find(editor, "Base")
+    cab.scale, base.scale = (1, 2, 3), (4, 4, 0)
+    workspace.tools.is_uniform = True
+    workspace.document.selection.set([cab, base])
+    workspace.panels.goes_to = "Properties"
+    settle(editor)
+    # The section, position, rotation, and the third number of the scale.
+    settle(editor)
+    for _ in range(10):
+        press(editor, "Tab")
+    for letter in "0.5":
+        do(editor, events.TextEntered(letter))
+    press(editor, "Return")
+    np.testing.assert_allclose(cab.scale, (1 / 6, 1 / 3, 0.5), rtol=1e-6)
+    np.testing.assert_allclose(base.scale, 0.5)
+    assert len(workspace.document.history.steps) == 1
+    workspace.undo()
+    assert cab.scale.tolist() == [1, 2, 3] and base.scale.tolist() == [4, 4, 0]
+
+
+def test_labels_stand_before_what_they_name():
+    named = ("drag_", "input_", "slider_", "color_edit", "combo", "begin_combo")
+    seen = 0
+    for path in sorted(Path(ui.__file__).parent.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
+                continue
+            if node.func.attr.startswith(named) and ast.unparse(node.func.value) == "imgui":
+                seen += 1
+                label = ast.unparse(node.args[0]).lstrip("f").strip("'\"")
+                assert label.startswith("##"), f"{path.name}:{node.lineno}: {label}"
+    assert seen > 20

@@ -200,7 +200,7 @@ def test_the_list_of_keys_opens_and_closes(editor):
     assert (settle(editor) == before).all()
     (keys,) = (one for one in editor._dialogs if isinstance(one, KeysWindow))
     menus = {menu for _, _, menu in keys._rows}
-    assert menus == {"File", "Edit", "View", "Tools", "Motion", "Help"}
+    assert menus == {"File", "Edit", "View", "Tools", "Motion", "Window", "Help"}
 
 
 def test_a_click_on_the_ball_of_axes_looks_along_one(fresh):

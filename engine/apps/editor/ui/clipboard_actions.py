@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from ....base.language import translated
 from ....errors import Engine3DError
+from ....model.scene.nodes import Node
 from ..node_commands import DeleteNodes, counted
 from .translated_imgui import imgui
 from .workspace import Workspace
@@ -34,11 +35,20 @@ def cut(workspace: Workspace) -> None:
         workspace.do(command)
 
 
-def paste(workspace: Workspace) -> None:
+def paste_below(workspace: Workspace) -> None:
+    """Add the nodes of the clipboard as children of the active node."""
+    parent = workspace.document.selection.active
+    paste(workspace, parent)
+    if parent is not None:
+        workspace.hierarchy.set_open(parent, True)
+
+
+def paste(workspace: Workspace, parent: Node | None = None) -> None:
     """Add the nodes of the clipboard, where they were copied; they are selected."""
     try:
         with workspace.console.warnings_noted():
-            command = workspace.clipboard.paste(workspace.scene, imgui.get_clipboard_text())
+            text = imgui.get_clipboard_text()
+            command = workspace.clipboard.paste(workspace.scene, text, parent)
     except Engine3DError as error:
         workspace.console.write("error", translated("Paste: {reason}", reason=error))
         return

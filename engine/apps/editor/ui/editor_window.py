@@ -25,6 +25,9 @@ from .files import Files
 from .hierarchy_panel import HierarchyPanel
 from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
+from .keyboard.command_search import CommandSearch
+from .keyboard.panel_focus import focus_panel
+from .keyboard.parent_choice import ParentChoice
 from .keys_window import KeysWindow
 from .materials.materials_panel import MaterialsPanel
 from .menus import draw_menus, entries, press_keys
@@ -101,7 +104,8 @@ class EditorWindow:
         self._scene = ScenePanel(self.workspace, self._painter)
         self._files = Files(self.workspace, self._painter)
         resources = ResourcesPanel(self.workspace, self._painter)
-        hierarchy = HierarchyPanel(self.workspace)
+        parents, commands = ParentChoice(self.workspace), CommandSearch(self.workspace)
+        hierarchy = HierarchyPanel(self.workspace, parents)
         properties = PropertiesPanel(self.workspace, self._files)
         materials = MaterialsPanel(self.workspace, self._painter, properties.draw_material_values)
         self._panels = {
@@ -117,13 +121,18 @@ class EditorWindow:
         self._files.offer_recovery()
         self._rendering = RenderDialog(self.workspace, self._files)
         arrays = ArrayDialog(self.workspace)
-        self._entries = entries(self.workspace, self._files, hierarchy, self._rendering, arrays)
+        self._entries = entries(
+            self.workspace, self._files, hierarchy, self._rendering, arrays, parents, commands
+        )
+        commands.entries = self._entries
         self._dialogs = (
             StartChooser(self.workspace, self._files),
             KeysWindow(self.workspace, self._entries),
             self._files,
             self._rendering,
             arrays,
+            parents,
+            commands,
         )
         self.workspace.panels.offers_start = not path
         self._pixels = np.zeros((1, 1, 4), np.uint8)
@@ -273,6 +282,7 @@ class EditorWindow:
             place_panels(space, self.window.size)
             workspace.panels.wants_usual_places = False
             workspace.panels.closed.clear()
+        focus_panel(workspace)
         for name, panel in self._panels.items():
             if name not in workspace.panels.closed:
                 self._guarded(panel.draw)

@@ -14,6 +14,7 @@ from ....base.language import translated, translated_number
 from ...desktop.recent_files import RecentFiles
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..file_pictures import FilePictures
+from .keyboard.file_steps import FileSteps
 from .style import scaled
 from .translated_imgui import imgui
 
@@ -70,7 +71,8 @@ class FileDialog:
         self.is_waiting = False
         self._title = ""
         self._opens = self._focuses = False
-        self._is_new = False
+        self._proposed: str | None = None  # what a new file may be called
+        self._steps = FileSteps()
         self._kinds: dict[str, tuple[str, ...]] = {}
         self._kind = ""
         self._others: tuple[str, ...] = ()
@@ -109,9 +111,9 @@ class FileDialog:
         """
         self._title, self._kinds, self._answer = title, kinds, answer
         self._kind = next(iter(kinds))
-        self._is_new, self._name = name is not None, name or ""
+        self._proposed, self._name = name, name or ""
         self._others = others
-        self._opens, self._focuses = True, self._is_new
+        self._opens = self._focuses = True
         if beside is not None:
             self._last.go_beside(beside)
         self._go(self._last.of_new if self._is_new else self._last.of_known)
@@ -119,6 +121,10 @@ class FileDialog:
     def _go(self, folder: str) -> None:
         self._listing, self._search = list_folder(folder), ""
         self._last.note(self._folder, self._is_new)
+
+    @property
+    def _is_new(self) -> bool:
+        return self._proposed is not None
 
     @property
     def _folder(self) -> str:
@@ -211,7 +217,7 @@ class FileDialog:
     def _draw_table(self) -> None:
         if self._listing.reason:
             imgui.text_disabled(self._listing.reason)
-        items = self._listing.filtered(self._kinds[self._kind], self._search)
+        items = self._steps.items = self._listing.filtered(self._kinds[self._kind], self._search)
         if not imgui.begin_table("items", 3, imgui.TableFlags_.scroll_y):
             return
         fixed, height = imgui.TableColumnFlags_.width_fixed, imgui.get_font_size()
@@ -219,6 +225,7 @@ class FileDialog:
         imgui.table_setup_column("Size", fixed, 5 * height)
         imgui.table_setup_column("Changed", fixed, 8.5 * height)
         imgui.table_headers_row()
+        self._steps.scroll_to(self._name)
         clipper = imgui.ListClipper()
         clipper.begin(len(items))
         while clipper.step():
@@ -256,16 +263,21 @@ class FileDialog:
         if self._focuses:
             imgui.set_keyboard_focus_here()
             self._focuses = False
-        flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
-        entered, self._name = imgui.input_text("##name", self._name, flags)
+        flags = imgui.InputTextFlags_
+        how = flags.enter_returns_true | flags.auto_select_all | flags.callback_history
+        entered, self._name = imgui.input_text("##name", self._name, how, self._steps.step)
         path = os.path.join(self._folder, self._name)
         imgui.same_line()
         imgui.begin_disabled(not self._name or not (self._is_new or os.path.exists(path)))
         pressed = imgui.button(self._title.split()[0])
         imgui.end_disabled()
-        if (pressed or entered) and self._name and os.path.isdir(path):
+        goes_up = imgui.get_io().key_alt and imgui.is_key_pressed(imgui.Key.up_arrow)
+        if goes_up:
+            self._go(os.path.dirname(self._folder))
+            self._name, self._focuses = self._proposed or "", True
+        elif (pressed or entered) and self._name and os.path.isdir(path):
             self._go(path)
-            self._name = self._name if self._is_new else ""
+            self._name, self._focuses = self._proposed or "", True
         elif (pressed or entered) and self._name:
             self._finish()
         imgui.same_line()

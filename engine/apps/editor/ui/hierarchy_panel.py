@@ -12,6 +12,9 @@ from ..new_things.adding import GROUPS
 from ..node_commands import Reparent
 from ..value_commands import SetValues
 from . import clipboard_actions
+from .keyboard.owned_keys import own, pressed
+from .keyboard.parent_choice import ParentChoice
+from .keyboard.tree_cursor import TreeCursor
 from .materials import material_actions
 from .panel_layout import begin_panel
 from .selection_actions import add, delete, duplicate, group
@@ -19,6 +22,8 @@ from .translated_imgui import imgui
 from .workspace import Workspace
 
 _PAYLOAD = "node"
+#: Keys that lead from the search to what it found.
+_TO_ROWS = ("down_arrow", "enter", "keypad_enter")
 
 
 class HierarchyPanel:
@@ -27,11 +32,14 @@ class HierarchyPanel:
     Parameters
     ----------
     workspace : Workspace
+    parents : ParentChoice
+        Asks for another parent.
     """
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, workspace: Workspace, parents: ParentChoice) -> None:
         self._workspace = workspace
-        self._anchor: Node | None = None
+        self._parents = parents
+        self._cursor = TreeCursor(workspace)
         self._renamed: Node | None = None
         self._name = ""
         self._focuses = False
@@ -49,6 +57,11 @@ class HierarchyPanel:
         shown = begin_panel("Hierarchy")
         if shown:
             self._draw_head()
+            panels = self._workspace.panels
+            if panels.goes_to_rows:
+                panels.goes_to_rows = False
+                imgui.internal.clear_active_id()  # of the search, which would keep the keyboard
+                imgui.set_next_window_focus()
             if imgui.begin_child("rows"):
                 self._draw_rows()
             imgui.end_child()
@@ -61,13 +74,31 @@ class HierarchyPanel:
             imgui.open_popup("add")
         imgui.same_line()
         imgui.set_next_item_width(-1.0)
+        panels = self._workspace.panels
+        if panels.goes_to_search:
+            panels.goes_to_search = False
+            imgui.set_keyboard_focus_here()
         _, hierarchy.search = imgui.input_text_with_hint("##search", "Search", hierarchy.search)
+        if imgui.is_item_focused():
+            own("search", _TO_ROWS)
+            if any(pressed(key, again=False) for key in _TO_ROWS):
+                panels.goes_to_rows = True
+                self._select_found()
         if imgui.begin_popup("add"):
             draw_add_menu(self._workspace)
             imgui.end_popup()
 
+    def _select_found(self) -> None:
+        """Select the first node that the search found."""
+        found = (row.node for row in self._workspace.hierarchy.rows() if row.is_match)
+        node = next(found, None)
+        if node is not None:
+            self._workspace.document.selection.set([node])
+
     def _draw_rows(self) -> None:
         rows = self._workspace.hierarchy.rows()
+        self._cursor.press_keys(rows)
+        rows = self._workspace.hierarchy.rows()  # keys open and close nodes
         self._scroll_to_selected(rows)
         clipper = imgui.ListClipper()
         clipper.begin(len(rows), imgui.get_text_line_height_with_spacing())
@@ -141,25 +172,14 @@ class HierarchyPanel:
         if clicked and imgui.is_mouse_double_clicked(0):
             self._workspace.frame((node,))
         elif clicked:
-            self._select(node, rows)
+            self._cursor.click(node, rows)
+            self._seen = selection.version
         if imgui.begin_popup_context_item("node"):
             if node not in selection:
                 selection.set([node])
             self._draw_node_menu(node)
             imgui.end_popup()
         self._drag_and_drop(node)
-
-    def _select(self, node: Node, rows) -> None:
-        io, selection = imgui.get_io(), self._workspace.document.selection
-        if io.key_shift and self._anchor is not None:
-            selection.set(rows.between(self._anchor, node))
-        elif io.key_ctrl:
-            selection.toggle(node)
-            self._anchor = node
-        else:
-            selection.set([node])
-            self._anchor = node
-        self._seen = selection.version
 
     def _draw_eye(self, node: Node) -> None:
         imgui.same_line()
@@ -195,10 +215,14 @@ class HierarchyPanel:
             clipboard_actions.copy(workspace)
         if imgui.menu_item_simple("Paste", "Ctrl+V"):
             clipboard_actions.paste(workspace)
+        if imgui.menu_item_simple("Paste below", "Ctrl+Shift+V"):
+            clipboard_actions.paste_below(workspace)
         if imgui.menu_item_simple("Duplicate", "Ctrl+D"):
             duplicate(workspace)
         if imgui.menu_item_simple("Group", "Ctrl+G"):
             group(workspace)
+        if imgui.menu_item_simple("Parent to ...", "Ctrl+P"):
+            self._parents.open()
         if imgui.menu_item_simple("Delete", "Del"):
             delete(workspace)
         imgui.separator()

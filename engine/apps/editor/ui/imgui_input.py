@@ -28,6 +28,7 @@ _NAMES = {
     "/": "slash",
     ";": "semicolon",
     "=": "equal",
+    "+": "equal",
     "[": "left_bracket",
     "\\": "backslash",
     "]": "right_bracket",

@@ -30,6 +30,21 @@ MOUSE = (
     ("Click on a number; drag it", "type it; change it"),
 )
 
+#: What keys do in some parts of the window.
+KEYBOARD = (
+    ("Up, Down in Hierarchy", "select the row before or after; with Shift, all rows on the way"),
+    ("Left, Right in Hierarchy", "close or open a node; go to what is above it or below it"),
+    ("Enter in Hierarchy", "go to the properties of the node"),
+    (
+        "Arrows, PageUp, PageDown in Scene",
+        "move, rotate or scale the selection by a step of the tool; with Shift, by a tenth of it",
+    ),
+    ("Tab, arrows in a panel", "go from field to field; Tab opens a number to type it"),
+    ("Enter on a field", "type its number, open its list, press its button, fold its section"),
+    ("Esc on a field", "leave it: Space plays again"),
+    ("Up, Down in a file dialog", "choose a file or folder; Enter opens it, Alt+Up goes above"),
+)
+
 
 class KeysWindow:
     """Shows the keys.
@@ -71,6 +86,8 @@ class KeysWindow:
         """Yield keys, what they do and their headings, as they are shown."""
         for keys, text in MOUSE:
             yield translated(keys), translated(text), translated("Mouse")
+        for keys, text in KEYBOARD:
+            yield translated(keys), translated(text), translated("Keyboard")
         for keys, text, heading in self._rows:
             yield translated_keys(keys), translated(text), translated(heading)
 

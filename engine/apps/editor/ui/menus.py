@@ -5,6 +5,7 @@ In: the workspace. Out: the changed workspace. Shortcuts are those on which Blen
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from functools import cache, partial
@@ -16,6 +17,9 @@ from . import selection_actions as actions
 from .array_dialog import ArrayDialog
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
+from .keyboard.command_search import CommandSearch
+from .keyboard.panel_focus import to_panel
+from .keyboard.parent_choice import ParentChoice, put_below
 from .materials.material_actions import add_to_selected
 from .motion import motion_actions as motion
 from .render_dialog import RenderDialog
@@ -26,6 +30,13 @@ from .workspace import PANELS, Workspace
 
 #: The entry below which recent files are.
 OPEN = "Open ..."
+_WINDOW = "Window"
+#: Keys that count also while somebody types: they lead away from the text.
+_LEADING_AWAY = ("F1", "F3", "F6", "Shift+F6", "F10")
+#: Keys that are in several places, or called otherwise.
+_PLACES = {"+": ("equal", "keypad_add"), "-": ("minus", "keypad_subtract")}
+#: By how much a key turns the view, in radians, and how many steps of the wheel it approaches.
+_TURN, _NEARER = math.radians(15.0), 2.0
 
 
 class Entry(NamedTuple):
@@ -59,6 +70,8 @@ def entries(
     hierarchy: HierarchyPanel,
     rendering: RenderDialog,
     arrays: ArrayDialog,
+    parents: ParentChoice,
+    commands: CommandSearch,
 ) -> list[Entry]:
     """Return all entries of all menus."""
 
@@ -85,7 +98,15 @@ def entries(
         return Entry("Edit", label, keys, lambda: act(workspace), is_any_selected)
 
     def choose(tool):
-        return lambda: setattr(workspace.tools, "chosen", tool)
+        def take():
+            workspace.tools.chosen = tool
+            workspace.panels.goes_to = "Scene"  # whose arrow keys the tool has
+
+        return take
+
+    def search():
+        workspace.panels.goes_to, workspace.panels.goes_to_search = "Hierarchy", True
+        workspace.hold_keys()
 
     return [
         Entry("File", "New", "Ctrl+N", files.new),
@@ -100,20 +121,31 @@ def entries(
         Entry("Edit", "Cut", "Ctrl+X", lambda: clipboard.cut(workspace), is_any_selected),
         Entry("Edit", "Copy", "Ctrl+C", lambda: clipboard.copy(workspace), is_any_selected),
         Entry("Edit", "Paste", "Ctrl+V", lambda: clipboard.paste(workspace)),
+        of_selection("Paste below", "Ctrl+Shift+V", clipboard.paste_below),
         Entry("Edit", "Rename", "F2", rename, is_any_selected),
         of_selection("Duplicate", "Ctrl+D", actions.duplicate),
         Entry("Edit", "Array ...", "Ctrl+Shift+D", arrays.open, is_any_selected),
         of_selection("Group", "Ctrl+G", actions.group),
+        Entry("Edit", "Parent to ...", "Ctrl+P", parents.open, is_any_selected),
+        Entry(
+            "Edit",
+            "To the top of the tree",
+            "Ctrl+Shift+P",
+            lambda: put_below(workspace, None),
+            is_any_selected,
+        ),
         of_selection("Delete", "Delete", actions.delete),
         of_selection("Put on the ground", "End", actions.put_on_ground),
         of_selection("Hide or show", "H", actions.toggle_visible),
         Entry("Edit", "Select all", "Ctrl+A", lambda: actions.select_all(workspace)),
+        Entry("Edit", "Search the tree", "Ctrl+F", search),
         Entry("View", "Frame the selection", "F", frame_selected, is_any_selected),
         Entry("View", "Frame all", "Home", lambda: workspace.frame(())),
         *(
             Entry("View", name, key, partial(workspace.look_from, name))
             for name, (_, _, key) in STANDARD_VIEWS.items()
         ),
+        *_turning_entries(workspace),
         Entry("View", "Orthographic or perspective", "5", workspace.toggle_orthographic),
         Entry("View", "Look through a camera", "0", workspace.look_through),
         Entry("View", "Frustum culling", "", switch_culling, is_on=lambda: workspace.display.culls),
@@ -124,7 +156,10 @@ def entries(
         Entry("Tools", "Rotate", "E", choose("rotate")),
         Entry("Tools", "Scale", "R", choose("scale")),
         *_motion_entries(workspace, is_any_selected),
+        Entry(_WINDOW, "To the next panel", "F6", lambda: to_panel(workspace, 1)),
+        Entry(_WINDOW, "To the panel before", "Shift+F6", lambda: to_panel(workspace, -1)),
         Entry("Help", "Keys and mouse", "F1", show_keys),
+        Entry("Help", "Find a command ...", "F3", commands.open),
         Entry("Help", "Go to the menus", "F10", go_to_menus),
     ]
 
@@ -141,6 +176,22 @@ def _history_entries(workspace: Workspace) -> list[Entry]:
     return [
         Entry("Edit", "Undo", "Ctrl+Z", workspace.undo, is_any("last"), says("undo_label")),
         Entry("Edit", "Redo", "Ctrl+Shift+Z", workspace.redo, is_any("next"), says("redo_label")),
+    ]
+
+
+def _turning_entries(workspace: Workspace) -> list[Entry]:
+    """Return the entries that turn the view, and bring it nearer."""
+
+    def turn(azimuth: float, elevation: float):
+        return lambda: workspace.turn(azimuth * _TURN, elevation * _TURN)
+
+    return [
+        Entry("View", "Turn to the left", "4", turn(-1.0, 0.0)),
+        Entry("View", "Turn to the right", "6", turn(1.0, 0.0)),
+        Entry("View", "Turn up", "8", turn(0.0, 1.0)),
+        Entry("View", "Turn down", "2", turn(0.0, -1.0)),
+        Entry("View", "Nearer", "+", lambda: workspace.approach(_NEARER)),
+        Entry("View", "Farther", "-", lambda: workspace.approach(-_NEARER)),
     ]
 
 
@@ -181,15 +232,11 @@ def draw_menus(workspace: Workspace, listed: list[Entry], files: Files) -> None:
         imgui.internal.set_nav_id(first, layer, 0, imgui.internal.ImRect())
         imgui.open_popup(menus[0])
         workspace.panels.goes_to_menus = False
-    for menu in menus[:-1]:
+    for menu in menus:
+        if menu == _WINDOW and imgui.begin_menu("Add"):
+            draw_add_menu(workspace)
+            imgui.end_menu()
         _draw_menu(menu, listed, workspace, files)
-    if imgui.begin_menu("Add"):
-        draw_add_menu(workspace)
-        imgui.end_menu()
-    if imgui.begin_menu("Window"):
-        _draw_window_menu(workspace)
-        imgui.end_menu()
-    _draw_menu(menus[-1], listed, workspace, files)  # Help stands last
     imgui.end_main_menu_bar()
 
 
@@ -203,6 +250,8 @@ def _draw_menu(menu: str, listed: list[Entry], workspace: Workspace, files: File
             entry.act()
         if entry.label == OPEN:
             _draw_recent(workspace, files)
+    if menu == _WINDOW:
+        _draw_panels(workspace)
     imgui.end_menu()
 
 
@@ -229,8 +278,9 @@ def _draw_entry(entry: Entry) -> bool:
     return imgui.menu_item_simple(label, entry.keys, entry.is_on(), entry.is_enabled())
 
 
-def _draw_window_menu(workspace: Workspace) -> None:
-    """Lay out the menu of open panels."""
+def _draw_panels(workspace: Workspace) -> None:
+    """Lay out which panels are open."""
+    imgui.separator()
     for name in PANELS:
         changed, is_open = imgui.menu_item(name, "", name not in workspace.panels.closed)
         if changed:
@@ -244,10 +294,10 @@ def press_keys(listed: list[Entry]) -> None:
     """Run the actions of pressed shortcuts, unless a text field is active."""
     io = imgui.get_io()
     popup = imgui.is_popup_open("", imgui.PopupFlags_.any_popup)
-    if io.want_text_input or popup or imgui.is_mouse_down(1):
+    if popup or imgui.is_mouse_down(1):
         return
     for entry in listed:
-        if not entry.keys:
+        if not entry.keys or (io.want_text_input and entry.keys not in _LEADING_AWAY):
             continue
         # Space activates the item that keyboard navigation has chosen
         if entry.keys == "Space" and io.nav_visible:
@@ -261,7 +311,9 @@ def press_keys(listed: list[Entry]) -> None:
 @cache
 def _chord(keys: str) -> tuple[bool, bool, tuple[imgui.Key, ...]]:
     """Return whether Ctrl and Shift are held, and the keys; a digit's is on the keypad, too."""
-    *modifiers, key = keys.split("+")
-    names = (f"_{key}", f"keypad{key}") if key.isdigit() else (key.lower(),)
-    pressed = tuple(getattr(imgui.Key, name) for name in names)
-    return "Ctrl" in modifiers, "Shift" in modifiers, pressed
+    *modifiers, key = keys[:-1].split("+")  # the last one may be the plus itself
+    key += keys[-1]
+    names = _PLACES.get(key) or (key.lower(),)
+    if key.isdigit():
+        names = f"_{key}", f"keypad{key}"
+    return "Ctrl" in modifiers, "Shift" in modifiers, tuple(getattr(imgui.Key, n) for n in names)

@@ -17,6 +17,7 @@ from ....stage.overlays.selection_outline import WIDTH, closed, outline_pixels
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
+from .keyboard.nudges import Nudges
 from .materials import material_actions
 from .motion.motion_lines import draw_ways
 from .overlays import SHADOW, Overlays
@@ -63,6 +64,7 @@ class ScenePanel:
         self._drawn: tuple = ()
         self._overlays = Overlays(workspace)
         self._gizmo = GizmoHandles(workspace)
+        self._nudges = Nudges(workspace)
         self._preview = CameraPreview(workspace, painter)
         self._axes = ClickableAxes(workspace, painter)
         self._figures = SceneFigures(workspace)
@@ -98,6 +100,7 @@ class ScenePanel:
         shown = begin_panel("Scene")
         imgui.pop_style_var()
         if shown:
+            self._nudges.press_keys()
             draw_tools(self._workspace, self._overlays)
             room = imgui.get_content_region_avail()
             size = tuple(min(max(int(side), 16), MOST_SIDE) for side in (room.x, room.y))

@@ -64,6 +64,8 @@ class StartChooser:
             panels.offers_start = False
         if imgui.is_key_pressed(imgui.Key.escape, False):
             panels.offers_start = False
+        if imgui.is_window_appearing():
+            imgui.set_nav_cursor_visible(True)  # otherwise Enter works only after an arrow key
         size = imgui.get_font_size() * _WIDTH, 0.0
         for start in STARTS:
             said = translated(
@@ -72,6 +74,8 @@ class StartChooser:
             if imgui.button(f"{said}###{start.title}", size):
                 panels.offers_start = False
                 self._workspace.start(start)
+            if start is STARTS[0]:
+                imgui.set_item_default_focus()
         if imgui.button("Open a file ...", size):
             panels.offers_start = False
             self._files.open()

@@ -1,0 +1,52 @@
+"""The way of arrow keys through the files of a dialog, while its name is typed.
+
+In: the listed files, keys. Out: the name of a file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .....base.files.folder_listing import Item
+from ..translated_imgui import imgui
+
+
+class FileSteps:
+    """Steps from file to file.
+
+    Attributes
+    ----------
+    items : sequence of Item
+        Those that are listed.
+    """
+
+    def __init__(self) -> None:
+        self.items: Sequence[Item] = ()
+        self._scrolls = False
+
+    def _place(self, name: str) -> int | None:
+        names = [item.name for item in self.items]
+        return names.index(name) if name in names else None
+
+    def step(self, data) -> int:
+        """Replace the name in a text field by the one that an arrow key leads to."""
+        if self.items:
+            step = -1 if data.event_key == imgui.Key.up_arrow else 1
+            place = self._place(data.buf)
+            place = min(step, 0) if place is None else place + step
+            data.delete_chars(0, data.buf_text_len)
+            data.insert_chars(0, self.items[place % len(self.items)].name)
+            data.select_all()
+            self._scrolls = True
+        return 0
+
+    def scroll_to(self, name: str) -> None:
+        """Scroll to a file that an arrow key led to, within the list."""
+        place = self._place(name) if self._scrolls else None
+        self._scrolls = False
+        if place is None:
+            return
+        height = imgui.get_text_line_height_with_spacing()
+        top, room = imgui.get_scroll_y(), imgui.get_window_height()
+        if not top <= place * height <= top + room - 3 * height:
+            imgui.set_scroll_y(place * height - room / 2)

@@ -1,0 +1,136 @@
+"""A dialog with a list that is searched by typing, and chosen from by arrows and Enter.
+
+In: options. Out: the chosen one, passed to a callback.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from ..middle import place_in_middle
+from ..translated_imgui import imgui
+from .owned_keys import STEPS, own, pressed
+
+_SIZE = 34, 24  # in heights of the font
+
+
+class Option(NamedTuple):
+    """A line of the list.
+
+    Attributes
+    ----------
+    name : str
+        As it is shown; what is typed is looked for in it and in the remark.
+    act : callable
+        Called when it is chosen.
+    remark : str
+        Stands at the right.
+    """
+
+    name: str
+    act: Callable[[], object]
+    remark: str = ""
+
+    def holds(self, words: Sequence[str]) -> bool:
+        """Return whether all words are in it."""
+        text = f"{self.name} {self.remark}".casefold()
+        return all(word in text for word in words)
+
+
+class ListDialog:
+    """Offers options.
+
+    Parameters
+    ----------
+    title : str
+    """
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._options: Sequence[Option] = ()
+        self._found: Sequence[Option] = ()
+        self._search = ""
+        self._place = 0
+        self._opens = self._scrolls = False
+
+    def ask(self, options: Sequence[Option]) -> None:
+        """Open the dialog with some options."""
+        self._options = self._found = options
+        self._search, self._place = "", 0
+        self._opens = True
+
+    def draw(self) -> None:
+        """Lay the dialog out, if it is open."""
+        if self._opens:
+            imgui.open_popup(self._title)
+            self._opens = False
+        place_in_middle()
+        letter, room = imgui.get_font_size(), imgui.get_main_viewport().size
+        size = min(_SIZE[0] * letter, 0.9 * room.x), min(_SIZE[1] * letter, 0.8 * room.y)
+        imgui.set_next_window_size(size, imgui.Cond_.appearing)
+        if not imgui.begin_popup_modal(self._title, None, imgui.WindowFlags_.no_saved_settings)[0]:
+            return
+        chosen = self._draw_search()
+        if imgui.begin_child("options"):
+            chosen = self._draw_options() or chosen
+        imgui.end_child()
+        if chosen is not None or imgui.is_key_pressed(imgui.Key.escape, False):
+            imgui.close_current_popup()
+        imgui.end_popup()
+        if chosen is not None:
+            self._options = self._found = ()
+            chosen.act()
+
+    def _draw_search(self) -> Option | None:
+        """Lay out the field to type in; return the marked option if Enter was pressed."""
+        own("list", STEPS)
+        if imgui.is_window_appearing():
+            imgui.set_keyboard_focus_here()
+        imgui.set_next_item_width(-1.0)
+        flags = imgui.InputTextFlags_.enter_returns_true
+        before = self._search
+        entered, self._search = imgui.input_text_with_hint(
+            "##search", "Search", self._search, flags
+        )
+        if self._search != before:
+            words = self._search.casefold().split()
+            self._found = [option for option in self._options if option.holds(words)]
+            self._place, self._scrolls = 0, True
+        for key, step in STEPS.items():
+            if pressed(key):
+                self._place, self._scrolls = self._place + step, True
+        self._place = max(min(self._place, len(self._found) - 1), 0)
+        return self._found[self._place] if entered and self._found else None
+
+    def _draw_options(self) -> Option | None:
+        """Lay out the visible options; return the one that was clicked."""
+        chosen = None
+        height = imgui.get_text_line_height_with_spacing()
+        faded = imgui.get_style_color_vec4(imgui.Col_.text_disabled)
+        if self._scrolls:
+            self._scrolls = False
+            top, room = imgui.get_scroll_y(), imgui.get_window_height()
+            if not top <= self._place * height <= top + room - height:
+                imgui.set_scroll_y(self._place * height - room / 2)
+        if not self._found:
+            imgui.text_disabled("nothing found")
+        clipper = imgui.ListClipper()
+        clipper.begin(len(self._found), height)
+        while clipper.step():
+            for number in range(clipper.display_start, clipper.display_end):
+                option = self._found[number]
+                label, is_marked = f"{option.name}##{number}", number == self._place
+                if imgui.selectable(label, is_marked, _NO_CURSOR)[0]:
+                    chosen = option
+                if option.remark:
+                    width = imgui.calc_text_size(option.remark).x
+                    room = imgui.get_window_width() - width - imgui.get_font_size()
+                    imgui.same_line(max(room, 0.0))
+                    imgui.push_style_color(imgui.Col_.text, faded)
+                    imgui.text_unformatted(option.remark)
+                    imgui.pop_style_color()
+        return chosen
+
+
+_NO_CURSOR = imgui.SelectableFlags_.no_auto_close_popups

@@ -1,0 +1,294 @@
+"""What keys alone do: ways through the tree, between panels, to parents, to commands, to files."""
+
+import numpy as np
+import pytest
+from editor.ui.editor_hands import do, find, press, settle
+
+import engine3d as e3d
+from engine3d import events
+from engine3d.apps.editor.scene_state import SceneState
+from engine3d.apps.editor.ui.keyboard.panel_focus import focused_panel
+from engine3d.apps.editor.ui.workspace import PANELS
+
+
+def type_text(editor, text):
+    do(editor, *(events.TextEntered(letter) for letter in text))
+
+
+def go_to(editor, panel):
+    editor.workspace.panels.goes_to = panel
+    settle(editor)
+    settle(editor)
+
+
+def selected(editor):
+    return [node.name for node in editor.workspace.document.selection.nodes]
+
+
+@pytest.fixture
+def planets(editor):
+    """An editor with two nodes and one below the first, beside nothing else."""
+    workspace = editor.workspace
+    workspace.new()
+    workspace.panels.offers_start = False
+    scene = workspace.scene
+    for node in list(scene.nodes):
+        scene.remove(node)
+    sun = scene.add(e3d.uv_sphere(), name="sun")
+    scene.add(e3d.uv_sphere(0.2), name="earth", parent=sun, translation=(2, 0, 0))
+    scene.add(e3d.uv_sphere(0.1), name="moon", translation=(3, 0, 0))
+    settle(editor)
+    return editor
+
+
+def test_enter_takes_the_first_scene_to_start_from(editor):
+    press(editor, "N", control=True)
+    assert editor.workspace.panels.offers_start
+    editor.workspace.scene.add(name="gone")
+    press(editor, "Return")
+    assert not editor.workspace.panels.offers_start
+    assert [node.name for node in editor.workspace.scene.nodes] == ["key light", "camera"]
+
+
+def test_f6_goes_from_panel_to_panel_and_back(editor):
+    go_to(editor, "Hierarchy")
+    seen = []
+    for _ in PANELS:
+        seen.append(focused_panel())
+        press(editor, "F6")
+    assert tuple(seen) == PANELS and focused_panel() == PANELS[0]
+    press(editor, "F6", shift=True)
+    assert focused_panel() == PANELS[-1]
+    editor.workspace.panels.closed = {"Hierarchy", "Scene"}
+    press(editor, "F6")
+    assert focused_panel() == "Properties"
+
+
+def test_f6_leads_away_from_a_text(editor):
+    editor.workspace.document.selection.set([find(editor, "Cab")])
+    press(editor, "F2")
+    press(editor, "F6")
+    assert focused_panel() == "Scene"
+    assert find(editor, "Cab")
+
+
+def test_arrows_go_through_the_tree_and_open_it(planets):
+    go_to(planets, "Hierarchy")
+    steps = (
+        ("Down", ["sun"]),
+        ("Down", ["moon"]),
+        ("Down", ["moon"]),
+        ("Up", ["sun"]),
+        ("Right", ["sun"]),
+        ("Right", ["earth"]),
+        ("Left", ["sun"]),
+        ("Left", ["sun"]),
+        ("Down", ["moon"]),
+        ("PageUp", ["sun"]),
+    )
+    for key, names in steps:
+        press(planets, key)
+        assert selected(planets) == names, key
+    assert not planets.workspace.hierarchy.is_open(find(planets, "sun"))
+
+
+def test_shift_and_arrows_select_several_rows(planets):
+    go_to(planets, "Hierarchy")
+    planets.workspace.hierarchy.set_open(find(planets, "sun"), True)
+    planets.workspace.document.selection.set([find(planets, "moon")])
+    press(planets, "Up", shift=True)
+    press(planets, "Up", shift=True)
+    assert selected(planets) == ["earth", "moon", "sun"], "the last one reached is active"
+    press(planets, "Down", shift=True)
+    assert selected(planets) == ["moon", "earth"]
+
+
+def test_enter_in_the_tree_leads_to_properties(planets):
+    go_to(planets, "Hierarchy")
+    press(planets, "Down")
+    press(planets, "Return")
+    assert focused_panel() == "Properties"
+    press(planets, "Return")
+    type_text(planets, "star")
+    press(planets, "Tab")
+    assert planets.workspace.document.selection.active.name == "star", "Tab takes it, too"
+    assert len(planets.workspace.document.history.steps) == 1
+
+
+def test_the_search_of_the_tree_leads_to_what_it_found(planets):
+    press(planets, "F", control=True)
+    settle(planets)
+    type_text(planets, "ear")
+    assert planets.workspace.hierarchy.search == "ear"
+    press(planets, "Return")
+    assert selected(planets) == ["earth"]
+    press(planets, "Up")
+    press(planets, "Up")
+    assert selected(planets) == ["sun"], "arrows go on in the tree"
+
+
+def test_a_parent_is_chosen_by_its_name_and_taken_back(planets):
+    workspace, moon, earth = planets.workspace, find(planets, "moon"), find(planets, "earth")
+    before, place = SceneState(workspace.scene), moon.world_pose
+    workspace.document.selection.set([moon])
+    press(planets, "P", control=True)
+    type_text(planets, "eart")
+    press(planets, "Return")
+    assert moon.parent is earth and workspace.hierarchy.is_open(earth)
+    np.testing.assert_allclose(moon.world_pose, place)
+    press(planets, "P", control=True, shift=True)
+    assert moon.parent is None
+    workspace.undo()
+    workspace.undo()
+    assert SceneState(workspace.scene) == before
+
+
+def test_what_is_below_a_node_is_no_parent_of_it(planets):
+    planets.workspace.document.selection.set([find(planets, "sun")])
+    press(planets, "P", control=True)
+    type_text(planets, "earth")
+    press(planets, "Return")
+    assert find(planets, "sun").parent is None
+    press(planets, "Escape")
+    press(planets, "Delete")
+    assert [node.name for node in planets.workspace.scene.nodes] == ["moon"], "it is closed"
+
+
+def test_arrows_choose_in_a_list(planets):
+    moon = find(planets, "moon")
+    planets.workspace.document.selection.set([moon])
+    press(planets, "P", control=True)
+    for key in ("Down", "Down", "Down", "Up", "Return"):
+        press(planets, key)
+    assert moon.parent is find(planets, "sun"), "after none, of sun and earth"
+
+
+def test_nodes_are_pasted_below_another(planets):
+    workspace, moon = planets.workspace, find(planets, "moon")
+    workspace.document.selection.set([moon])
+    press(planets, "C", control=True)
+    workspace.document.selection.set([find(planets, "earth")])
+    press(planets, "V", control=True, shift=True)
+    twin = workspace.document.selection.active
+    assert twin is not moon and twin.parent is find(planets, "earth")
+    np.testing.assert_allclose(twin.world_pose, moon.world_pose)
+    workspace.undo()
+    assert len(workspace.scene.nodes) == 3
+
+
+def test_a_command_is_found_by_its_name(planets):
+    press(planets, "F3")
+    type_text(planets, "add sphere")
+    press(planets, "Return")
+    assert selected(planets) == ["sphere"]
+    press(planets, "F3")
+    type_text(planets, "go timeline")
+    press(planets, "Return")
+    settle(planets)
+    assert focused_panel() == "Timeline"
+
+
+@pytest.mark.parametrize(
+    "tool, key, changed",
+    [
+        ("W", "Right", ("translation", (3.25, 0, 0))),
+        ("W", "Up", ("translation", (3, 0, -0.25))),
+        ("W", "PageUp", ("translation", (3, 0.25, 0))),
+        ("E", "Right", ("euler", (0, np.radians(15), 0))),
+        ("E", "PageDown", ("euler", (0, 0, -np.radians(15)))),
+        ("R", "Up", ("scale", (1.1, 1.1, 1.1))),
+    ],
+)
+def test_arrows_move_turn_and_scale_what_is_selected(planets, tool, key, changed):
+    moon = find(planets, "moon")
+    planets.workspace.look_from("Front")
+    planets.workspace.document.selection.set([moon])
+    before = SceneState(planets.workspace.scene)
+    press(planets, tool)
+    press(planets, key)
+    name, value = changed
+    np.testing.assert_allclose(getattr(moon, name), value, atol=1e-12)
+    back = {"Right": "Left", "Up": "Down", "PageUp": "PageDown", "PageDown": "PageUp"}[key]
+    press(planets, back)
+    np.testing.assert_allclose(moon.world_pose[:3, 3], (3, 0, 0), atol=1e-12)
+    np.testing.assert_allclose(moon.scale, 1)
+    planets.workspace.undo()
+    planets.workspace.undo()
+    assert SceneState(planets.workspace.scene) == before
+
+
+def test_shift_makes_a_tenth_of_a_step_along_the_axes_that_one_sees(planets):
+    moon = find(planets, "moon")
+    planets.workspace.look_from("Right")
+    planets.workspace.document.selection.set([moon])
+    press(planets, "W")
+    press(planets, "Right", shift=True)
+    np.testing.assert_allclose(moon.translation, (3, 0, -0.025))
+
+
+def test_a_held_arrow_is_one_step(planets):
+    workspace, moon = planets.workspace, find(planets, "moon")
+    workspace.document.selection.set([moon])
+    press(planets, "W")
+    from imgui_bundle import imgui
+
+    imgui.get_io().key_repeat_delay = imgui.get_io().key_repeat_rate = 1e-4
+    do(planets, events.KeyDown("Right", "Right"))
+    settle(planets)
+    do(planets, events.KeyUp("Right", "Right"))
+    assert moon.translation[0] > 3.3
+    assert len(workspace.document.history.steps) == 1
+
+
+def test_keys_turn_the_view_and_bring_it_nearer(editor):
+    view = editor.workspace.view
+    azimuth, elevation, distance = view.azimuth, view.elevation, view.distance
+    press(editor, "6")
+    press(editor, "8")
+    assert view.azimuth == pytest.approx(azimuth + np.radians(15))
+    assert view.elevation == pytest.approx(elevation + np.radians(15))
+    press(editor, "4")
+    press(editor, "2")
+    assert (view.azimuth, view.elevation) == pytest.approx((azimuth, elevation))
+    press(editor, "+")
+    assert view.distance < distance
+    press(editor, "-")
+    assert view.distance == pytest.approx(distance)
+
+
+def test_a_file_is_chosen_by_arrows_and_enter(editor, tmp_path, monkeypatch):
+    folder = tmp_path / "models"
+    folder.mkdir()
+    e3d.save_scene(e3d.Scene(), folder / "a.e3d.json")
+    e3d.save_scene(e3d.Scene(), folder / "b.e3d.json")
+    dialog = editor._files._dialog
+    monkeypatch.setattr(dialog._last, "of_known", str(tmp_path))
+    press(editor, "O", control=True)
+    settle(editor)
+    type_text(editor, "models")
+    press(editor, "Return")
+    settle(editor)
+    assert dialog._folder == str(folder)
+    do(editor, events.KeyDown("Left Alt", "Left Alt"), events.KeyDown("Up", "Up"))
+    do(editor, events.KeyUp("Up", "Up"), events.KeyUp("Left Alt", "Left Alt"))
+    assert dialog._folder == str(tmp_path)
+    settle(editor)
+    for key in ("Down", "Return"):
+        press(editor, key)
+    settle(editor)
+    assert dialog._folder == str(folder)
+    for key in ("Down", "Down", "Return"):
+        press(editor, key)
+    assert editor.workspace.document.path == str(folder / "b.e3d.json")
+
+
+def test_a_new_file_keeps_its_name_in_another_folder(editor, tmp_path, monkeypatch):
+    (tmp_path / "here").mkdir()
+    monkeypatch.setattr(editor._files._dialog._last, "of_new", str(tmp_path))
+    press(editor, "S", control=True)
+    settle(editor)
+    for key in ("Down", "Return"):
+        press(editor, key)
+    settle(editor)
+    press(editor, "Return")
+    assert (tmp_path / "here" / "scene.e3d.json").exists()

@@ -28,7 +28,7 @@ UNLABELLED = ("imgui_input.py", "translated_imgui.py")
 #: Keys whose names are the same everywhere.
 SAME_KEY = re.compile(r"F\d+|Ctrl|Tab|Alt")
 #: Names of keys that code compares with, which are no labels.
-KEY_NAMES = ("Alt", "Ctrl", "Escape", "Shift", "Space")
+KEY_NAMES = ("Alt", "Ctrl", "Escape", "Shift", "Space", "Tab")
 
 
 class Text(NamedTuple):

@@ -16,7 +16,7 @@ def type_text(editor, text):
 
 
 def go_to(editor, panel):
-    editor.workspace.panels.goes_to = panel
+    editor.workspace.go_to(panel)
     settle(editor)
     settle(editor)
 
@@ -240,7 +240,7 @@ def test_a_held_arrow_is_one_step(planets):
     assert len(workspace.document.history.steps) == 1
 
 
-def test_keys_turn_the_view_and_bring_it_nearer(editor):
+def test_keys_turn_and_move_the_view_and_bring_it_nearer(editor):
     view = editor.workspace.view
     azimuth, elevation, distance = view.azimuth, view.elevation, view.distance
     press(editor, "6")
@@ -254,6 +254,12 @@ def test_keys_turn_the_view_and_bring_it_nearer(editor):
     assert view.distance < distance
     press(editor, "-")
     assert view.distance == pytest.approx(distance)
+    target, (right, up, _) = view.target.copy(), view.rotation().T
+    for key, axis in (("6", right), ("8", up)):
+        press(editor, key, control=True)
+        assert np.dot(view.target - target, axis) > 0, key
+        press(editor, {"6": "4", "8": "2"}[key], control=True)
+        np.testing.assert_allclose(view.target, target, atol=1e-9)
 
 
 def test_a_file_is_chosen_by_arrows_and_enter(editor, tmp_path, monkeypatch):

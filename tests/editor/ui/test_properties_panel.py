@@ -80,7 +80,7 @@ def test_one_number_of_a_uniform_scale_changes_the_others_in_proportion(editor):
     cab.scale, base.scale = (1, 2, 3), (4, 4, 0)
     workspace.tools.is_uniform = True
     workspace.document.selection.set([cab, base])
-    workspace.panels.goes_to = "Properties"
+    workspace.go_to("Properties")
     settle(editor)
     # The section, position, rotation, and the third number of the scale.
     settle(editor)

@@ -66,7 +66,7 @@ class Editor(Desktop):
         self.do("mouseup", 1, "sleep", 0.1)
 
     def type(self, text):
-        self.do("type", "--delay", 15, text)
+        self.do("type", "--delay", 15, "--", text)
         self.do("key", "Return")
 
     def run(self, line):
@@ -137,3 +137,30 @@ def saved_again(desktop, path):
     desktop.run("scene.ambient = 0.5, 0.5, 0.5")
     until(lambda: "*" in desktop.title)
     return saved(desktop, path)
+
+
+def test_a_scene_is_made_by_keys_alone(opened, tmp_path):
+    path = tmp_path / "planets.e3d.json"
+    desktop = opened(path.name)
+    for name in ("sun", "earth", "moon"):
+        desktop.do("key", "F3")
+        desktop.type("add sphere")
+        desktop.do("key", "F2")
+        desktop.type(name)
+    for name in ("earth", "sun"):
+        desktop.do("key", "ctrl+p")
+        desktop.type(name)
+        desktop.do("key", "Left")  # from the moon to what it is below now
+    desktop.do("key", "Up", "key", "w", "key", "Prior", "key", "e", "key", "Right")
+    desktop.do("key", "F6", "key", "Tab", "key", "Tab", "key", "Tab")
+    desktop.type("-5")
+    desktop.do("key", "ctrl+s")
+    until(lambda: desktop.title == f"{path.name} - engine3d")
+    nodes = {node["name"]: node for node in json.loads(path.read_text())["nodes"]}
+    numbers = list(nodes)
+    assert nodes["sun"]["children"] == [numbers.index("earth")]
+    assert nodes["earth"]["children"] == [numbers.index("moon")]
+    assert nodes["sun"]["translation"][:2] == [-5.0, 0.75]
+    assert nodes["sun"]["rotation"] != [0.0, 0.0, 0.0, 1.0]
+    desktop.do("key", "Escape", "key", "ctrl+q")
+    assert desktop.finish() == (0, b"")

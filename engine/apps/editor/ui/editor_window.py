@@ -226,6 +226,8 @@ class EditorWindow:
             for path in event.paths:
                 self.workspace.add_file(path, self._scene.node_under_mouse())
         else:
+            if isinstance(event, events.KeyDown) and event.key == "Tab":
+                self.workspace.hold_keys()  # ImGui opens the next number some pictures later
             self._input.feed(event)
 
     def _draw(self) -> None:

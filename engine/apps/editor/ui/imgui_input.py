@@ -139,7 +139,7 @@ def of_one_picture(happened: list, holds: bool = False) -> tuple[list, list]:
 
     ImGui only knows the state of Ctrl, Shift and Alt at the end of its input: a modifier released
     right after a key press would not count for that key. Named keys, such as Return, may move the
-    focus to another field, which gets the following input.
+    focus to another field, which gets the following input; so may a letter that chooses a tool.
 
     Parameters
     ----------
@@ -156,6 +156,8 @@ def of_one_picture(happened: list, holds: bool = False) -> tuple[list, list]:
             if modifies and pressed:
                 return happened[:number], happened[number:]
             if isinstance(event, events.KeyDown) and not modifies:
+                if pressed and len(event.key) > 1:
+                    return happened[:number], happened[number:]
                 pressed = True
                 if len(event.key) > 1:
                     return happened[: number + 1], happened[number + 1 :]

@@ -37,6 +37,7 @@ _LEADING_AWAY = ("F1", "F3", "F6", "Shift+F6", "F10")
 _PLACES = {"+": ("equal", "keypad_add"), "-": ("minus", "keypad_subtract")}
 #: By how much a key turns the view, in radians, and how many steps of the wheel it approaches.
 _TURN, _NEARER = math.radians(15.0), 2.0
+_ASIDE = 0.1  # of the picture's height, by which a key moves the view
 
 
 class Entry(NamedTuple):
@@ -100,13 +101,13 @@ def entries(
     def choose(tool):
         def take():
             workspace.tools.chosen = tool
-            workspace.panels.goes_to = "Scene"  # whose arrow keys the tool has
+            workspace.go_to("Scene")  # whose arrow keys the tool has
 
         return take
 
     def search():
-        workspace.panels.goes_to, workspace.panels.goes_to_search = "Hierarchy", True
-        workspace.hold_keys()
+        workspace.panels.goes_to_search = True
+        workspace.go_to("Hierarchy")
 
     return [
         Entry("File", "New", "Ctrl+N", files.new),
@@ -180,16 +181,23 @@ def _history_entries(workspace: Workspace) -> list[Entry]:
 
 
 def _turning_entries(workspace: Workspace) -> list[Entry]:
-    """Return the entries that turn the view, and bring it nearer."""
+    """Return the entries that turn and move the view, and bring it nearer."""
 
     def turn(azimuth: float, elevation: float):
         return lambda: workspace.turn(azimuth * _TURN, elevation * _TURN)
+
+    def move(right: float, up: float):
+        return lambda: workspace.move_view(right, up)
 
     return [
         Entry("View", "Turn to the left", "4", turn(-1.0, 0.0)),
         Entry("View", "Turn to the right", "6", turn(1.0, 0.0)),
         Entry("View", "Turn up", "8", turn(0.0, 1.0)),
         Entry("View", "Turn down", "2", turn(0.0, -1.0)),
+        Entry("View", "Move to the left", "Ctrl+4", move(-_ASIDE, 0.0)),
+        Entry("View", "Move to the right", "Ctrl+6", move(_ASIDE, 0.0)),
+        Entry("View", "Move up", "Ctrl+8", move(0.0, _ASIDE)),
+        Entry("View", "Move down", "Ctrl+2", move(0.0, -_ASIDE)),
         Entry("View", "Nearer", "+", lambda: workspace.approach(_NEARER)),
         Entry("View", "Farther", "-", lambda: workspace.approach(-_NEARER)),
     ]

@@ -49,6 +49,7 @@ FOCUSING = 6
 #: Half the side of the ground that is framed, and the radius of what is shown, while there is
 #: nothing.
 EMPTY_REACH, EMPTY_RADIUS = 2.5, 4.0
+_TALL = 1000  # pixels of a picture's height
 #: Maximum time step of one picture, in seconds.
 LONGEST_STEP = 0.1
 
@@ -383,6 +384,11 @@ class Workspace:
         self.through.leave()
         self.orbit.turn(azimuth, elevation)
 
+    def move_view(self, right: float, up: float) -> None:
+        """Move the view by parts of the picture's height."""
+        self.through.leave()
+        self.orbit.pan(-right * _TALL, up * _TALL, _TALL)
+
     def approach(self, steps: float) -> None:
         """Bring the view nearer, by steps of the wheel."""
         self.through.leave()
@@ -409,6 +415,12 @@ class Workspace:
     def hold_keys(self) -> None:
         """Queue typed text until a field has the focus."""
         self.panels.pictures_to_focus = FOCUSING
+
+    def go_to(self, panel: str) -> None:
+        """Let the keyboard go to a panel, and what is typed wait for it."""
+        self.panels.closed.discard(panel)
+        self.panels.goes_to = panel
+        self.hold_keys()
 
     def next_drag(self) -> int:
         """Return a key shared by all commands of one mouse drag."""

@@ -39,6 +39,7 @@ class CommandSearch:
 
     def open(self) -> None:
         """Ask for a command."""
+        self._workspace.hold_keys()
         self._dialog.ask(list(self._options()))
 
     def draw(self) -> None:
@@ -57,8 +58,4 @@ class CommandSearch:
             yield Option(said, partial(add, workspace, name), translated("Add"))
         for name in PANELS:
             said = translated("Go to {panel}", panel=translated(name))
-            yield Option(said, partial(self._go, name), translated("Window"))
-
-    def _go(self, panel: str) -> None:
-        self._workspace.panels.closed.discard(panel)
-        self._workspace.panels.goes_to = panel
+            yield Option(said, partial(workspace.go_to, name), translated("Window"))

@@ -32,7 +32,7 @@ def to_panel(workspace: Workspace, step: int) -> None:
         return
     now = focused_panel()
     place = names.index(now) + step if now in names else min(step, 0)
-    workspace.panels.goes_to = names[place % len(names)]
+    workspace.go_to(names[place % len(names)])
 
 
 def focus_panel(workspace: Workspace) -> None:
@@ -41,7 +41,6 @@ def focus_panel(workspace: Workspace) -> None:
     panel = imgui.internal.find_window_by_name(labelled(name)) if name else None
     if panel is None:
         return
-    workspace.panels.closed.discard(name)
     imgui.internal.focus_window(panel)
     workspace.panels.goes_to_rows = name == _TREE and not workspace.panels.goes_to_search
     if name not in _OWN_ARROWS:

@@ -26,6 +26,7 @@ class ParentChoice:
 
     def open(self) -> None:
         """Ask."""
+        self._workspace.hold_keys()
         self._dialog.ask(self._options())
 
     def draw(self) -> None:

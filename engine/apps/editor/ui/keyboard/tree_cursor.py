@@ -55,7 +55,7 @@ class TreeCursor:
         if pressed("right_arrow"):
             self._unfold(rows, place)
         if any(pressed(key, again=False) for key in _ENTER):
-            self._workspace.panels.goes_to = "Properties"
+            self._workspace.go_to("Properties")
 
     def _go(self, node: Node, rows: Rows) -> None:
         """Select a node, with Shift all rows from the anchor to it; it is the active one."""

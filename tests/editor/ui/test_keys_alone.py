@@ -8,6 +8,7 @@ import engine3d as e3d
 from engine3d import events
 from engine3d.apps.editor.scene_state import SceneState
 from engine3d.apps.editor.ui.keyboard.panel_focus import focused_panel
+from engine3d.apps.editor.ui.keys_window import KeysWindow
 from engine3d.apps.editor.ui.workspace import PANELS
 
 
@@ -298,3 +299,40 @@ def test_a_new_file_keeps_its_name_in_another_folder(editor, tmp_path, monkeypat
     settle(editor)
     press(editor, "Return")
     assert (tmp_path / "here" / "scene.e3d.json").exists()
+
+
+def test_what_is_typed_in_the_list_of_keys_is_looked_for_there(editor):
+    cab = find(editor, "Cab")
+    editor.workspace.document.selection.set([cab])
+    press(editor, "F1")
+    settle(editor)
+    for letter in "he":
+        do(editor, events.KeyDown(letter.upper(), letter.upper()), events.TextEntered(letter))
+        do(editor, events.KeyUp(letter.upper(), letter.upper()))
+    (keys,) = (one for one in editor._dialogs if isinstance(one, KeysWindow))
+    assert keys._search == "he"
+    assert cab.visible and editor.workspace.tools.chosen == "select"
+    press(editor, "Escape")
+    assert not editor.workspace.panels.shows_keys
+
+
+def test_arrows_and_space_act_again_after_a_dialog(planets):
+    workspace, moon = planets.workspace, find(planets, "moon")
+    workspace.document.animator.spin(moon, period=5)
+    workspace.document.selection.set([moon])
+    press(planets, "W")
+    for dialog in ("P", "S"):
+        press(planets, dialog, control=True)
+        settle(planets)
+        press(planets, "Escape")
+        settle(planets)
+        before = moon.translation[1]
+        press(planets, "PageUp")
+        assert moon.translation[1] == before + 0.25, dialog
+    go_to(planets, "Hierarchy")
+    press(planets, "F2")
+    settle(planets)
+    press(planets, "Return")
+    settle(planets)
+    press(planets, "Space")
+    assert workspace.plays

@@ -26,7 +26,7 @@ from .hierarchy_panel import HierarchyPanel
 from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
 from .keyboard.command_search import CommandSearch
-from .keyboard.panel_focus import focus_panel
+from .keyboard.panel_focus import focus_panel, restore_cursor
 from .keyboard.parent_choice import ParentChoice
 from .keys_window import KeysWindow
 from .materials.materials_panel import MaterialsPanel
@@ -284,6 +284,7 @@ class EditorWindow:
             place_panels(space, self.window.size)
             workspace.panels.wants_usual_places = False
             workspace.panels.closed.clear()
+        restore_cursor(workspace)
         focus_panel(workspace)
         for name, panel in self._panels.items():
             if name not in workspace.panels.closed:

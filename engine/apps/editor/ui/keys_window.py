@@ -77,6 +77,8 @@ class KeysWindow:
         if shown:
             if imgui.is_window_focused() and imgui.is_key_pressed(imgui.Key.escape, False):
                 panels.shows_keys = False
+            if imgui.is_window_appearing():
+                imgui.set_keyboard_focus_here()  # else letters that are typed are commands
             imgui.set_next_item_width(-1.0)
             _, self._search = imgui.input_text_with_hint("##search", "Search", self._search)
             self._draw_rows()

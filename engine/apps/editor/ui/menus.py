@@ -85,6 +85,7 @@ def entries(
 
     def show_keys():
         workspace.panels.shows_keys = not workspace.panels.shows_keys
+        workspace.hold_keys()
 
     def switch_culling():
         workspace.display.culls = not workspace.display.culls

@@ -102,6 +102,8 @@ class Panels:
         Whether the keyboard is to go to the rows of the tree.
     goes_to_search : bool
         Whether the keyboard is to go to the search of the tree.
+    has_dialog, shows_cursor : bool
+        Whether a dialog, a list or a menu is open, and whether ImGui's cursor showed before it.
     """
 
     closed: set[str] = field(default_factory=set)
@@ -113,6 +115,8 @@ class Panels:
     goes_to: str = ""
     goes_to_rows: bool = False
     goes_to_search: bool = False
+    has_dialog: bool = False
+    shows_cursor: bool = False
 
 
 @dataclass

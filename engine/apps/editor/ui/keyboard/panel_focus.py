@@ -35,6 +35,18 @@ def to_panel(workspace: Workspace, step: int) -> None:
     workspace.go_to(names[place % len(names)])
 
 
+def restore_cursor(workspace: Workspace) -> None:
+    """Show ImGui's cursor, or hide it, as it was before a dialog: it takes arrows and Space."""
+    panels = workspace.panels
+    opened = imgui.is_popup_open("", imgui.PopupFlags_.any_popup)
+    has_dialog = opened or panels.shows_keys or panels.offers_start
+    if panels.has_dialog and not has_dialog:
+        imgui.set_nav_cursor_visible(panels.shows_cursor)
+    elif not has_dialog:
+        panels.shows_cursor = imgui.get_io().nav_visible
+    panels.has_dialog = has_dialog
+
+
 def focus_panel(workspace: Workspace) -> None:
     """Give the keyboard to the panel that it is to go to, before panels are laid out."""
     name, workspace.panels.goes_to = workspace.panels.goes_to, ""

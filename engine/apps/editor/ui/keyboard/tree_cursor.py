@@ -43,6 +43,7 @@ class TreeCursor:
         if not imgui.is_window_focused() or io.want_text_input or io.key_ctrl or io.key_alt:
             return
         own("tree", (*STEPS, *_SIDEWAYS, *_ENTER))
+        imgui.set_nav_cursor_visible(False)  # Space plays, and acts on no row
         for key, step in STEPS.items():
             if pressed(key):
                 self._step(rows, step)

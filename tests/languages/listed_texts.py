@@ -16,7 +16,12 @@ from engine3d.stage.appearance import CHOICES
 def of_viewer():
     """What the viewer draws of its keys, options, lists and statistics."""
     from engine3d.apps.viewer import actions, file_dialog, help_panel, keymap, list_panels, viewer
-    from engine3d.apps.viewer.tools import explosion_panel, measuring_panel, section_panel
+    from engine3d.apps.viewer.tools import (
+        explosion_panel,
+        measuring_panel,
+        pointing_panel,
+        section_panel,
+    )
     from engine3d.stage.lighting import NO_LIGHTS, OWN_LIGHTS, SETUPS
     from engine3d.stage.overlays.debug_lines import DEBUG_DRAWINGS
     from engine3d.stage.overlays.theme import THEMES
@@ -33,6 +38,7 @@ def of_viewer():
     panels += file_dialog.FolderPanel, file_dialog.RecentPanel
     panels += explosion_panel.ExplosionPanel, section_panel.SectionPanel
     panels += help_panel.CommandPanel, measuring_panel.MeasuringPanel
+    panels += (pointing_panel.PointingPanel,)
     yield from _plain(text for panel in panels for text in (panel.title, panel.hint))
     yield from _plain([help_panel._SHORT_HINT, measuring_panel._CLEAR, viewer.HINT])
     yield from _plain(measuring_panel._WORDS.values())

@@ -56,6 +56,7 @@ INVERTIBLE = tuple(
     and one.action
     not in (
         "cycle_animations",  # begins at their start
+        "cycle_debug",  # draws the frustum of the moment
         "cycle_theme",  # takes the place of a scene's own background
         "cycle_lists",  # takes the place of another panel, as all panels do
         "toggle_edges",  # as three others: off is the usual picture, not the one before
@@ -66,6 +67,7 @@ INVERTIBLE = tuple(
         "toggle_fullscreen",
         "toggle_help",
         "toggle_measuring",
+        "toggle_pointing",
         "toggle_section",
         "toggle_walking",  # moves down to the ground
     )
@@ -163,7 +165,7 @@ class Hands:
         if key == "Ctrl+F12" and rng.random() < 0.95:  # 48 pictures
             key = "F12"
         name = key.removeprefix("Ctrl+").removeprefix("Shift+") or "+"
-        shift = key.startswith("Shift+") or rng.random() < 0.3
+        shift = "Shift+" in key or rng.random() < 0.3
         self._modifiers = sdl2.KMOD_CTRL * key.startswith("Ctrl+") | sdl2.KMOD_SHIFT * shift
         repeats = rng.choice((1, 1, 1, 3))
         for repeat in range(repeats):

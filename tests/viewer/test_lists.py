@@ -209,12 +209,33 @@ def test_statistics_are_a_line_then_all_then_none():
     viewer.draw()
     viewer.draw()
     press(viewer, "Z")
+    viewer.playing = True
     (line,) = viewer.statistics_lines()
     assert "frames per second" in line and " ms to draw, " in line and " triangles" in line
+    viewer.playing = False
+    (line,) = viewer.statistics_lines()
+    assert "per second" not in line and " ms to draw, " in line
     press(viewer, "Z")
     assert len(viewer.statistics_lines()) > 10
     press(viewer, "Z")
     assert viewer.statistics is None
+
+
+def test_statistics_at_rest_are_those_of_the_frame_that_is_shown():
+    viewer = make_viewer()
+    viewer.window._script = [[]] * 9
+    viewer.statistics = "long"
+    viewer.draw()
+    viewer.frame_times.add(50.0, 60.0, 40.0)  # of a frame before it, in motion
+    viewer.draw()
+    told = []
+    viewer._show = lambda pixels: told.append(viewer.statistics_lines())
+    viewer.run_once()
+    (lines,) = told
+    last = viewer.frame_times.last()
+    assert lines[0].split() == ["one", "frame", f"{1000 * last.seconds:.2f}", "ms"]
+    assert lines[1].split() == ["core", f"{1000 * last.core_seconds:.2f}", "ms"]
+    assert 1000 * last.seconds < 20_000
 
 
 def test_a_turn_is_written_to_a_file(tmp_path, monkeypatch):

@@ -100,7 +100,7 @@ def test_as_many_frames_as_asked_for_are_shown_though_nothing_moves(plays):
 def test_the_title_has_the_name_and_what_frames_take():
     viewer, window = make_viewer([[]] * 400, make_viewed_scene(plays=True))
     viewer.run(frames=300)
-    assert re.fullmatch(r"torus.obj - engine3d - \d+\.\d ms, \d+ fps", window.titles[0])
+    assert re.fullmatch(r"torus.obj - engine3d - \d+\.\d ms to draw, \d+ fps", window.titles[0])
 
 
 def test_the_title_tells_what_recent_frames_take_and_that_nothing_moves(monkeypatch):
@@ -117,10 +117,10 @@ def test_the_title_tells_what_recent_frames_take_and_that_nothing_moves(monkeypa
             viewer.run_once()
 
     turn(8)
-    assert window.titles[-1].endswith(" ms, 8 fps")
+    assert window.titles[-1].endswith(" ms to draw, 8 fps")
     take[0] = 1 / 150
     turn(400)
-    assert window.titles[-1].endswith(" ms, 150 fps")
+    assert window.titles[-1].endswith(" ms to draw, 150 fps")
     viewer.handle(key("Space"))
     turn(2)
     assert re.search(r"idle, last frame \d+\.\d ms$", window.titles[-1])

@@ -23,6 +23,7 @@ from .recording import record
 from .sampling import AT_REST, MOTION_FPS
 from .tools.explosion_panel import ExplosionPanel
 from .tools.measuring_panel import MeasuringPanel
+from .tools.pointing_panel import PointingPanel
 from .tools.section_panel import SectionPanel
 
 SAMPLES = (1, 4, 16)  # available with both supersampling and multisampling
@@ -33,6 +34,8 @@ SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 TIME_SHARE = 1 / 50
 #: The angle by which a key turns the camera.
 ORBIT_STEP = math.radians(7.5)
+#: How far a key moves the camera, in heights of the picture.
+PAN_STEP = 1 / 20
 #: What each culling method omits.
 LEFT_OUT = {
     "all": "what is outside the view, faces away or is hidden is left out",
@@ -184,6 +187,34 @@ def zoom_out(viewer, step: int) -> None:
     """Recede from what the camera looks at, as by a step of the wheel."""
     if viewer.walker is None:
         viewer.orbit.dolly(-1.0)
+
+
+def _panning(right: float, up: float):
+    """Return an action that moves the camera by heights of the picture."""
+
+    def pan(viewer, step: int) -> None:
+        if viewer.walker is None:
+            viewer.orbit.pan(-right, up, 1)
+
+    return pan
+
+
+pan_left, pan_right = _panning(-PAN_STEP, 0.0), _panning(PAN_STEP, 0.0)
+pan_down, pan_up = _panning(0.0, -PAN_STEP), _panning(0.0, PAN_STEP)
+
+
+def _turning_light(right: float, down: float):
+    """Return an action that turns the lights, as a drag does, by angles."""
+
+    def turn(viewer, step: int) -> None:
+        a_turn = viewer.view_renderer.size[1] / math.tau
+        viewer.turn_light(right * a_turn, down * a_turn)
+
+    return turn
+
+
+light_left, light_right = _turning_light(-ORBIT_STEP, 0.0), _turning_light(ORBIT_STEP, 0.0)
+light_up, light_down = _turning_light(0.0, -ORBIT_STEP), _turning_light(0.0, ORBIT_STEP)
 
 
 def _turn_up(viewer, up: str) -> None:
@@ -387,6 +418,7 @@ def _toggling_panel(panel: type):
 toggle_section = _toggling_panel(SectionPanel)
 toggle_explosion = _toggling_panel(ExplosionPanel)
 toggle_measuring = _toggling_panel(MeasuringPanel)
+toggle_pointing = _toggling_panel(PointingPanel)
 toggle_dimensions = _toggling("dimensions")
 
 

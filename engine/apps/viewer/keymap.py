@@ -46,6 +46,10 @@ SECTIONS = {
         Binding(("U",), "toggle_unlit", "without light", now.option_is("mode", "unlit")),
         Binding(("T",), "toggle_textures", "textures", now.setting("textures")),
         Binding(("L",), "cycle_lights", "lights", now.lights),
+        Binding(("Shift+Home",), "light_left", "light to the left"),
+        Binding(("Shift+End",), "light_right", "light to the right"),
+        Binding(("Shift+PageUp",), "light_up", "light up"),
+        Binding(("Shift+PageDown",), "light_down", "light down"),
         Binding(
             ("Ctrl+L",),
             "toggle_occlusion",
@@ -75,6 +79,10 @@ SECTIONS = {
         Binding(("Shift+Right",), "orbit_right", "turn right"),
         Binding(("Shift+Up",), "orbit_up", "turn up"),
         Binding(("Shift+Down",), "orbit_down", "turn down"),
+        Binding(("Ctrl+Shift+Left",), "pan_left", "move left"),
+        Binding(("Ctrl+Shift+Right",), "pan_right", "move right"),
+        Binding(("Ctrl+Shift+Up",), "pan_up", "move up"),
+        Binding(("Ctrl+Shift+Down",), "pan_down", "move down"),
         Binding(("Ctrl++", "Ctrl+="), "zoom_in", "zoom in"),
         Binding(("Ctrl+-",), "zoom_out", "zoom out"),
         Binding(("Ctrl+Y",), "turn_y_up", "Y is up (Shift: -Y)", now.up_axis("Y")),
@@ -104,9 +112,10 @@ SECTIONS = {
         Binding(("K",), "cycle_theme", "dark or light", now.theme),
     ),
     "Inspection": (
+        Binding(("P",), "toggle_pointing", "point by keys"),
         Binding(("Ctrl+X",), "toggle_section", "section: cut by a plane", now.section),
         Binding(("Ctrl+E",), "toggle_explosion", "explode: parts apart", now.explosion),
-        Binding(("Ctrl+M",), "toggle_measuring", "measure by clicks", now.measured),
+        Binding(("Ctrl+M",), "toggle_measuring", "measure by clicks or keys", now.measured),
         Binding(("Ctrl+B",), "toggle_dimensions", "box with dimensions", now.setting("dimensions")),
     ),
     "Files": (
@@ -154,6 +163,14 @@ REPEATED = (
     "orbit_down",
     "later",
     "earlier",
+    "pan_left",
+    "pan_right",
+    "pan_up",
+    "pan_down",
+    "light_left",
+    "light_right",
+    "light_up",
+    "light_down",
     "zoom_in",
     "zoom_out",
 )
@@ -175,12 +192,13 @@ def action_for(
     position : str
         What the key would type on a US keyboard; asked only for digits.
     control : bool
-        Whether Ctrl is held: only keys named with ``"Ctrl+"`` answer then.
+        Whether Ctrl is held: only keys named with ``"Ctrl+"`` or ``"Ctrl+Shift+"`` answer then.
     shift : bool
         Whether Shift is held: keys named with ``"Shift+"`` answer before those without.
     """
     if control:
-        return _ACTIONS.get(f"Ctrl+{key}")
+        shifted = _ACTIONS.get(f"Ctrl+Shift+{key}") if shift else None
+        return shifted or _ACTIONS.get(f"Ctrl+{key}")
     if shift and f"Shift+{key}" in _ACTIONS:
         return _ACTIONS[f"Shift+{key}"]
     action = _ACTIONS.get(key.removeprefix("Keypad "))

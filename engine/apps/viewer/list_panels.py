@@ -28,6 +28,8 @@ GAP = "nn"
 #: Alpha of the bar behind the chosen row.
 BAR_ALPHA = 90
 HIDDEN, SHOWN = "[ ]", "[x]"
+#: The keys that choose a row, or a place.
+ENTER = ("Return", "Enter", "Keypad Enter")
 
 
 class Row(NamedTuple):
@@ -174,6 +176,9 @@ class Panel:
     def drag(self, x: int) -> None:
         """Handle a drag, to a column of the picture, that began with a click on the panel."""
 
+    def mark(self, canvas: Canvas, scale: float, theme: Theme) -> None:
+        """Draw what belongs on the picture beside the panel, in terminals as well."""
+
     #: Whether it uses clicks on the model.
     takes_clicks = False
 
@@ -226,7 +231,7 @@ class ChoosingPanel(Panel):
             return False
         if event.key in ("Up", "Down", "PageUp", "PageDown", "Home", "End"):
             self._move(event.key)
-        elif event.key in ("Return", "Enter", "Keypad Enter"):
+        elif event.key in ENTER:
             if self.chosen in self.choices():
                 self.press(self.chosen, event.shift)
                 self.viewer.redraw()

@@ -189,6 +189,8 @@ class Viewer(ViewerState):
         self._show(pixels)
         core = self.view_renderer.stats.get("ms_total", 0.0) / 1000
         self.frame_times.add(drawn - start, clock.monotonic() - start, core)
+        if self.statistics and not self.lively:
+            self.redraw_controls()  # its own times are known now
 
     def _show(self, pixels) -> None:
         """Show the window's pixels."""
@@ -201,11 +203,19 @@ class Viewer(ViewerState):
     def _over_frame(self):
         """Return the window's pixels: the last frame, what lies over it, the strips beside it."""
         if self.window.writes_text:
-            return self.frame.color
+            return self._marked_frame()
         layout = self.controls.layout
         pixels, picture = self._pixels.with_picture(self.frame.color, layout)
         self.controls.draw(pixels)
         self._draw_overlays(Canvas(picture))
+        return pixels
+
+    def _marked_frame(self):
+        """Return the last frame with the panel's marks, for a window that writes the panel."""
+        if self.panel is None:
+            return self.frame.color
+        pixels = self.frame.color.copy()
+        self.panel.mark(Canvas(pixels), self.controls.scale, self.view_renderer.theme)
         return pixels
 
     def _draw_overlays(self, canvas: Canvas) -> None:
@@ -222,6 +232,7 @@ class Viewer(ViewerState):
             draw_bar(canvas, self.time / viewed.period, **look)
         draw_block(canvas, self.messages.lines(), corner="bottom", **look)
         if self.panel is not None:
+            self.panel.mark(canvas, **look)
             self.panel.draw(canvas, **look)
 
     def _overlay_lines(self) -> list[str]:
@@ -239,11 +250,13 @@ class Viewer(ViewerState):
     def statistics_lines(self) -> list[str]:
         """Return the statistics of the last frame: a line, or all."""
         view_renderer = self.view_renderer
+        # At rest a mean would be of frames in motion, and not of the one whose stages are told.
+        times = self.frame_times if self.lively else self.frame_times.last()
         if self.statistics == "short":
-            return [short_statistics(self.frame_times, view_renderer.stats)]
+            return [short_statistics(times, view_renderer.stats)]
         x, y, z = self.view.position()
         return statistics_lines(
-            self.frame_times,
+            times,
             view_renderer.size,
             view_renderer.samples,
             view_renderer.stats,

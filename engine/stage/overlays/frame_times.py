@@ -58,6 +58,12 @@ class FrameTimes:
             self._frames.popleft()
         self._frames.append((now, drawing, shown, core))
 
+    def last(self) -> FrameTimes:
+        """Return the times of the last frame alone."""
+        times = FrameTimes()
+        times._frames.extend(list(self._frames)[-1:])
+        return times
+
     @property
     def count(self) -> int:
         """Number of recent frames."""
@@ -94,4 +100,6 @@ class FrameTimes:
         if idle:
             return translated("idle, last frame {ms:.1f} ms", ms=self._frames[-1][1] * 1000)
         rate = 1.0 / max(self.seconds, 1e-6)
-        return translated("{ms:.1f} ms, {rate:.0f} fps", ms=self.drawing_seconds * 1000, rate=rate)
+        return translated(
+            "{ms:.1f} ms to draw, {rate:.0f} fps", ms=self.drawing_seconds * 1000, rate=rate
+        )

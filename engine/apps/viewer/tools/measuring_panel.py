@@ -1,6 +1,7 @@
 """The panel that measures: distances, angles and circles between clicked points, surfaces of parts.
 
-In: clicks on the model, which snap to corners and edges. Out: marks over the picture, and texts.
+In: clicks on the model, also by keys, which snap to corners and edges. Out: marks over the
+picture, and texts.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from ....stage.overlays.measurements import (
     measurement_text,
     surface_text,
 )
-from ..list_panels import HIDDEN, SHOWN, Panel, Row
+from ..list_panels import HIDDEN, SHOWN, Row
+from .pointing_panel import PointingPanel
 from .snapping import snap
 
 _SURFACE = "surface"
@@ -31,7 +33,7 @@ _WORDS = {
 _CLEAR = "clear"
 
 
-class MeasuringPanel(Panel):
+class MeasuringPanel(PointingPanel):
     """Measures by clicks while it is open; the marks stay when Escape closes it.
 
     Parameters
@@ -40,8 +42,9 @@ class MeasuringPanel(Panel):
     """
 
     title = "Measure"
-    hint = "Escape keeps the marks"
+    hint = "Tab, arrows, Enter; Escape keeps the marks"
     takes_clicks = True
+    shows_cross = False
 
     def __init__(self, viewer) -> None:
         super().__init__(viewer)
@@ -67,6 +70,19 @@ class MeasuringPanel(Panel):
             self._done, self._surface = [], []
         self._points = self._points[:0]
         self._mark()
+
+    def key(self, event) -> bool:
+        if event.control or event.key not in ("Tab", "Delete"):
+            return super().key(event)
+        kinds = list(_WORDS)
+        step = -1 if event.shift else 1
+        following = (kinds.index(self._kind) + step) % len(kinds)
+        self.press(following if event.key == "Tab" else len(kinds), False)
+        self.viewer.redraw()
+        return True
+
+    def point(self, x: int, y: int, shift: bool) -> None:
+        self.take(x, y)
 
     def take(self, x: int, y: int) -> bool:
         viewer = self.viewer

@@ -140,6 +140,23 @@ def test_parts_move_apart_and_together():
     assert viewer.view.distance == pytest.approx(distance)
 
 
+def test_the_first_view_shows_all_parts_that_are_apart():
+    viewer = make_viewer()
+    first = viewer.view.copy()
+    press(viewer, "E", control=True)
+    for _ in range(15):
+        press(viewer, "Right", shift=True)
+    press(viewer, "R")
+    low, high = bounds(viewer)
+    corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
+    pixels, _ = viewer.frame.project(corners)
+    assert (pixels > 0).all() and (pixels < SIZE).all()
+    assert (viewer.view.azimuth, viewer.view.elevation) == (first.azimuth, first.elevation)
+    press(viewer, "E", control=True)
+    press(viewer, "R")
+    assert viewer.view.distance == first.distance
+
+
 def test_what_is_hidden_stays_hidden():
     viewer = make_viewer()
     viewer.view_renderer.visibility.toggle_object(1)

@@ -167,6 +167,8 @@ class ViewerState:
         if self.walker is not None:
             self.toggle_walking()
         self.view = self.first_view.copy()
+        if self.inspector.amount:
+            self.view_renderer.frame(self.view)  # parts that are apart take more room
         self.orbit.view = self.view
         self.redraw()
 

@@ -66,6 +66,17 @@ def test_c_copies_the_code():
     assert "clipboard" in session.said
 
 
+@pytest.mark.parametrize("button", ["left", "right"])
+def test_what_was_said_of_the_code_goes_with_the_next_step(button):
+    _, session = play(*keys("Right", "C"), events.MouseButton(button, True, x=200, y=200))
+    assert session.said == "" and session.place != "step 2 of 6"
+
+
+def test_a_click_closes_the_list_of_keys_and_stays_at_the_step():
+    _, session = play(*keys("H"), events.MouseButton("left", True, x=200, y=200))
+    assert not session.shows_help and session.place == "step 1 of 6"
+
+
 def test_the_wheel_moves_a_page_that_is_too_long():
     FakeWindow.size = (1000, 300)
     try:

@@ -149,6 +149,8 @@ class Session:
         elif key in ("Return", "Enter") and self.answer and self.mood != "right":
             self.check()
         elif key in _KEYS:
+            if self.mood == "plain":
+                self.remark("")
             _KEYS[key](self)
         else:
             return False

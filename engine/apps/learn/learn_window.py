@@ -62,8 +62,7 @@ class LearnWindow:
             case events.MouseButton("left", True):
                 return self._pressed(event.x, event.y)
             case events.MouseButton("right", True):
-                self._session.go_back()
-                return True
+                return self._press("Left")
             case events.Resized() | events.Exposed():
                 return True
         return False
@@ -77,9 +76,7 @@ class LearnWindow:
         return changes
 
     def _pressed(self, x: int, y: int) -> bool:
-        if self._page is None or not self._page.press(x, y):
-            self._session.go_on()
-        return True
+        return (self._page is not None and self._page.press(x, y)) or self._press("Right")
 
     def _scrolls(self, key: str) -> bool:
         """Move the page by a key; the letters of `less`."""

@@ -64,6 +64,7 @@ def test_a_section_cuts_moves_turns_and_ends():
     press(viewer, "X", control=True)
     assert isinstance(viewer.panel, SectionPanel)
     assert bounds(viewer)[:, 0] == pytest.approx((-1.5, -0.5))  # right is cut off, at the middle
+    assert viewer.view.distance == view.distance
     assert viewer.panel.rows()[3].detail == "X = 0 m"
     press(viewer, "F")
     assert bounds(viewer)[:, 0] == pytest.approx((0.5, 1.5))

@@ -75,18 +75,21 @@ class Inspector:
         return translated("all cuts are closed")
 
     def arrange(self) -> None:
-        """Show the model as it is chosen; what grows or shrinks keeps its share of the picture."""
+        """Show the model as it is chosen; what moves apart keeps its share of the picture."""
         viewer = self._viewer
         before = viewer.view_renderer.bounds.radius
-        self._arrange()
+        if self.is_cut or self.amount:
+            self._spread()
+        else:
+            self._restore()
+        growth = viewer.view_renderer.bounds.radius / before  # uncut: a section moves no camera
+        if self.is_cut:
+            self._cut()
         if viewer.walker is None:
-            viewer.view.distance *= viewer.view_renderer.bounds.radius / before
+            viewer.view.distance *= growth
         viewer.redraw()
 
-    def _arrange(self) -> None:
-        if not (self.is_cut or self.amount):
-            self._restore()
-            return
+    def _spread(self) -> None:
         if self._apart is None:
             self._apart = TakenApart(self._viewer.view_renderer.viewed)
             self._show(self._apart.viewed)
@@ -95,10 +98,11 @@ class Inspector:
         self._bounds = np.array(self._apart.viewed.scene.bounds, np.float64)
         if not np.array_equal(before, self._bounds):
             self._renew()
-        if self.is_cut:
-            at = self.place - self._apart.viewed.origin[self.axis]
-            hidden = self._viewer.view_renderer.visibility.hidden_nodes
-            self._apart.cut(Plane(self.axis, at, self.from_above), hidden)
+
+    def _cut(self) -> None:
+        at = self.place - self._apart.viewed.origin[self.axis]
+        hidden = self._viewer.view_renderer.visibility.hidden_nodes
+        self._apart.cut(Plane(self.axis, at, self.from_above), hidden)
 
     def _restore(self) -> None:
         if self._apart is not None:

@@ -100,6 +100,15 @@ def test_points_are_measured_by_keys(viewer):
     assert viewer.view_renderer.settings.measured == ()
 
 
+def test_a_moving_cross_draws_no_frame(viewer):
+    press(viewer, "P")
+    frame = viewer.frame
+    viewer.window._script = [[events.KeyDown("Left", "Left")]]
+    shown = viewer.window.shown[-1]
+    viewer.run_once()
+    assert viewer.frame is frame and (viewer.window.shown[-1] != shown).any()
+
+
 def test_a_terminal_shows_the_cross_in_its_picture(viewer):
     viewer.window.writes_text, viewer.window.text_room = True, (80, 24)
     viewer.window.write = lambda lines: None

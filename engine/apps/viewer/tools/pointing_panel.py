@@ -58,9 +58,10 @@ class PointingPanel(Panel):
             return super().key(event)
         if event.key in ENTER:
             self.point(*self._pixel(), event.shift)
+            self.viewer.redraw()
         else:
             self._move(*LOOKS[event.key], _LONG_STEP if event.shift else _STEP)
-        self.viewer.redraw()
+            self.viewer.redraw_controls()
         return True
 
     def _move(self, right: int, up: int, step: float) -> None:

@@ -46,6 +46,16 @@ def texts_in_source():
             yield from _texts_of(path)
 
 
+def counted_texts():
+    """Yield what `translated_count` takes: a text for one thing, one for several, and the place."""
+    for folder in FOLDERS:
+        for path in sorted((ENGINE / folder).rglob("*.py")):
+            for call in _calls(_tree(path)):
+                if _function(call) == "translated_count":
+                    one, many = (argument.value for argument in call.args[:2])
+                    yield one, many, f"{_name(path)}:{call.lineno}"
+
+
 def untranslatable():
     """Yield the places where words are put together before they are drawn."""
     for folder in FOLDERS:

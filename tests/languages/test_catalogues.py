@@ -5,6 +5,7 @@ import string
 import pytest
 from languages import listed_texts
 from languages.drawn_texts import (
+    counted_texts,
     texts_in_source,
     untranslatable,
     untranslated_labels,
@@ -36,6 +37,12 @@ def test_every_text_has_a_translation(entries):
     known |= {(entry.context, entry.plural) for entry in entries}
     missing = {f"{place}: {key}" for key, place in found().items() if key not in known}
     assert not missing, "add these to the catalogue:\n" + "\n".join(sorted(missing))
+
+
+def test_texts_that_count_have_all_plurals(entries):
+    plurals = {entry.text: entry.plural for entry in entries}
+    without = [place for one, many, place in counted_texts() if plurals.get(one, many) != many]
+    assert not without, "in the catalogue these have no msgid_plural:\n" + "\n".join(without)
 
 
 def test_every_translation_is_of_a_text_that_is_drawn(entries):

@@ -80,6 +80,15 @@ def test_keyframes(scene):
     np.testing.assert_allclose(node.euler, (0, 0, math.pi * 3 / 8), atol=1e-10)
 
 
+def test_a_track_that_repeats_shows_its_last_keyframe(scene):
+    node = scene.add()
+    animator = e3d.Animator(scene)
+    animator.track(node, [0, 1, 2.01], translations=[(0, 0, 0), (1, 0, 0), (5, 0, 0)])
+    for time, place in ((2.01, 5.0), (np.nextafter(2.01, 3.0), 0.0), (-1.01, 1.0), (4.02, 0.0)):
+        animator.seek(time)
+        np.testing.assert_allclose(node.translation, (place, 0, 0), atol=1e-12)
+
+
 def test_a_track_that_ends_stays_there(scene):
     node, still = scene.add(), scene.add()
     animator = e3d.Animator(scene)

@@ -115,7 +115,8 @@ class Animator(Clock):
             Quaternions x, y, z, w; interpolated along the shorter arc at a constant rate.
         scales : (K, 3) float, optional
         repeat : bool
-            Whether to restart after the last keyframe instead of holding it.
+            Whether to restart after the last keyframe, which shows at its own time, instead of
+            holding it.
 
         Raises
         ------
@@ -418,7 +419,8 @@ class Track(NodeMotion):
 
     def move(self, time: float) -> None:
         first, last = float(self.times[0]), float(self.times[-1])
-        if self.repeat and last > first:
+        # At the last keyframe the node is where it was set to, and only then starts again.
+        if self.repeat and last > first and not first <= time <= last:
             turns = (time - first) / (last - first)
             turns = turns if math.isfinite(turns) else 0.0
             time = first + (turns - math.floor(turns)) * (last - first)

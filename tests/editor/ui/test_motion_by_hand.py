@@ -165,6 +165,19 @@ def test_keys_set_keys_and_go_from_one_to_the_next(editor):
     assert motions(editor).tracks == (track,)
 
 
+def test_a_node_stays_where_it_was_put_when_its_last_key_is_set(editor):
+    (cab,) = select(editor, "Cab")
+    press(editor, "K")
+    start = cab.translation
+    for rise in (1.0, 2.0):  # the second time the key is the last one already
+        actions.seek(editor.workspace, 2.01)
+        settle(editor)
+        cab.translation = cab.translation + np.array((0.0, 1.0, 0.0))
+        press(editor, "K")
+        settle(editor)
+        np.testing.assert_allclose(cab.translation, start + np.array((0.0, rise, 0.0)))
+
+
 def test_the_time_line_scrubs_and_drags_and_deletes_keys(editor, spans):
     workspace = editor.workspace
     (cab,) = select(editor, "Cab")

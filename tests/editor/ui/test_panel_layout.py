@@ -1,9 +1,11 @@
 """Which panels are open, and where, is kept from one editor to the next."""
 
+import itertools
+
 from editor.ui.editor_hands import settle
 
 from engine3d.apps.editor.ui.panel_layout import layout_path, load_layout, save_layout
-from engine3d.apps.editor.ui.workspace import Workspace
+from engine3d.apps.editor.ui.workspace import PANELS, Workspace
 
 
 def test_panels_can_be_closed_and_come_back(editor):
@@ -12,6 +14,18 @@ def test_panels_can_be_closed_and_come_back(editor):
     assert (settle(editor) != everything).any()
     editor.workspace.panels.wants_usual_places = True
     assert (settle(editor) == everything).all() and not editor.workspace.panels.closed
+
+
+def test_nothing_of_an_old_picture_stays_where_panels_are_closed(editor):
+    closed = editor.workspace.panels.closed
+    several = [set(), set(PANELS), *map(set, itertools.combinations(PANELS, 2)), {"Scene"}]
+    for names in several:
+        closed.clear()
+        closed |= names
+        settle(editor)
+        editor._pixels[:] = (255, 0, 255, 255)
+        shown = settle(editor)
+        assert not (shown == (255, 0, 255, 255)).all(-1).any(), names
 
 
 def test_closed_panels_and_steps_are_kept(editor):

@@ -32,7 +32,7 @@ from .keys_window import KeysWindow
 from .materials.materials_panel import MaterialsPanel
 from .menus import draw_menus, entries, press_keys
 from .motion.timeline_panel import TimelinePanel
-from .panel_layout import load_layout, place_panels, save_layout
+from .panel_layout import fill_gap, load_layout, place_panels, save_layout
 from .properties_panel import PropertiesPanel
 from .render_dialog import RenderDialog
 from .resources_panel import ResourcesPanel
@@ -286,6 +286,7 @@ class EditorWindow:
             workspace.panels.closed.clear()
         restore_cursor(workspace)
         focus_panel(workspace)
+        fill_gap(space)
         for name, panel in self._panels.items():
             if name not in workspace.panels.closed:
                 self._guarded(panel.draw)

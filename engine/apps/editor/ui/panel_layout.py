@@ -155,6 +155,16 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
     builder.dock_builder_finish(space)
 
 
+def fill_gap(space: int) -> None:
+    """Paint the middle if no panel is there: menus that were open over it would stay to be seen."""
+    middle = imgui.internal.dock_builder_get_central_node(space)
+    if middle is not None and middle.is_empty():
+        color = imgui.get_color_u32(imgui.Col_.docking_empty_bg)
+        imgui.get_background_draw_list().add_rect_filled(
+            middle.pos, middle.pos + middle.size, color
+        )
+
+
 def _share(width: int, usual: float, least: float, most: float) -> float:
     """Return the share of a window's width that a panel at its side gets."""
     return min(max(usual, least * imgui.get_font_size() / width), most)

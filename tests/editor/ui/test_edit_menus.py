@@ -1,5 +1,8 @@
 """Menus say what undo does, and stand still where nothing is to be done; the clipboard works."""
 
+import itertools
+
+import numpy as np
 from editor.ui.editor_hands import click, do, find, middle_of, press, settle
 
 import engine3d as e3d
@@ -206,6 +209,29 @@ def test_a_window_that_closes_stops_the_drawing(editor, tmp_path):
     dialog.render_to(str(tmp_path / "turn.webp"))
     dialog.close()
     assert not (tmp_path / "turn.webp").exists() and not dialog.is_waiting
+
+
+def test_what_others_hide_is_culled_by_a_switch_of_its_own(editor):
+    workspace, ball = editor.workspace, e3d.uv_sphere(0.5)
+    for place in itertools.product(range(10), repeat=3):
+        workspace.scene.add(ball, translation=1.5 * np.array(place))
+    workspace.frame(())
+    frustum, hidden = entry(editor, "Frustum culling"), entry(editor, "Occlusion culling")
+
+    def drawn():
+        for _ in range(2):  # what hides others is known from the picture before
+            workspace.changes += 1
+            settle(editor)
+        return editor._scene._frame.stats["instances_drawn"]
+
+    fewer = drawn()
+    hidden.act()
+    assert frustum.is_on() and not hidden.is_on() and drawn() > max(fewer, 1000)
+    frustum.act()
+    assert not hidden.is_enabled() and not hidden.is_on()
+    hidden.act()
+    frustum.act()
+    assert hidden.is_enabled() and drawn() < 1000
 
 
 def test_frustum_culling_is_switched_and_changes_what_is_drawn_but_not_the_picture(editor):

@@ -90,6 +90,9 @@ def entries(
     def switch_culling():
         workspace.display.culls = not workspace.display.culls
 
+    def switch_culling_of_hidden():
+        workspace.display.culls_hidden = not workspace.display.culls_hidden
+
     def go_to_menus():
         workspace.panels.goes_to_menus = True
 
@@ -151,6 +154,14 @@ def entries(
         Entry("View", "Orthographic or perspective", "5", workspace.toggle_orthographic),
         Entry("View", "Look through a camera", "0", workspace.look_through),
         Entry("View", "Frustum culling", "", switch_culling, is_on=lambda: workspace.display.culls),
+        Entry(
+            "View",
+            "Occlusion culling",
+            "",
+            switch_culling_of_hidden,
+            lambda: workspace.display.culls,
+            is_on=lambda: workspace.display.culling == "all",
+        ),
         Entry("View", "Play or pause", "Space", workspace.play_or_pause),
         Entry("Edit", "New material", "Ctrl+M", lambda: add_to_selected(workspace)),
         Entry("Tools", "Select", "Q", choose("select")),

@@ -146,7 +146,7 @@ class ScenePanel:
         workspace = self._workspace
         key = (
             *(size, workspace.display.mode, workspace.display.wireframe, workspace.changes),
-            *(workspace.display.look, workspace.display.as_rendered, workspace.display.culls),
+            *(workspace.display.look, workspace.display.as_rendered, workspace.display.culling),
             *(workspace.view.pose().tobytes(), workspace.view.orthographic),
             *(workspace.view.distance, workspace.document.selection.version),
             *(workspace.scene, workspace.scene.data.arrays.changes),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....choices import Culling, LookName
+from ....choices import LookName
 from ....model.scene.scene import Scene
 from ....model.scene.staged_scene import StagedScene
 from ....rendering.frame import Frame
@@ -38,7 +38,7 @@ class ScenePictures:
         """Return the frame of the workspace's view, with or without the grid to work on."""
         workspace = self._workspace
         renderer, camera = self._renderer_for(size), workspace.camera()
-        culling: Culling = "all" if workspace.display.culls else "none"
+        culling = workspace.display.culling
         is_worked_in = not workspace.display.as_rendered
         self._drawn = self._with_grid() if grid and is_worked_in else workspace.scene
         if not is_worked_in:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ....base import linalg
 from ....base.language import translated
-from ....choices import LookName, Mode
+from ....choices import Culling, LookName, Mode
 from ....errors import Engine3DError
 from ....io.loaders import load_mesh, load_texture
 from ....model.materials.material import Material
@@ -132,6 +132,8 @@ class Display:
         ``"plain"``, which costs nothing when a node is dragged.
     as_rendered : bool
         Whether the view is exactly what `engine3d.render` draws, without marks of the editor.
+    culls_hidden : bool
+        Whether what others hide is left out, too: with ``culls``, and where it may pay.
     culls : bool
         Whether what is out of view is left out before it is drawn: the picture is the same.
     fps : int
@@ -142,8 +144,16 @@ class Display:
     wireframe: bool = False
     look: LookName | None = None
     as_rendered: bool = False
+    culls_hidden: bool = True
     culls: bool = True
     fps: int = 24
+
+    @property
+    def culling(self) -> Culling:
+        """What is left out before it is drawn."""
+        if not self.culls:
+            return "none"
+        return "all" if self.culls_hidden else "tree"
 
     @property
     def worn_look(self) -> LookName:

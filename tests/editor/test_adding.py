@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
+from engine3d.apps.editor.array_command import ArrayNodes
+from engine3d.apps.editor.clipboard import Clipboard
 from engine3d.apps.editor.document import SceneDocument
-from engine3d.apps.editor.new_things.adding import GROUPS, add_new, free_name, usual_size
+from engine3d.apps.editor.new_things.adding import GROUPS, add_new, usual_size
 from engine3d.apps.editor.new_things.primitive_shapes import (
     PRIMITIVES,
     arguments_of,
@@ -13,7 +15,7 @@ from engine3d.apps.editor.new_things.primitive_shapes import (
     new_primitive,
     title_of,
 )
-from engine3d.apps.editor.node_commands import AddNodes
+from engine3d.apps.editor.node_commands import AddNodes, DuplicateNodes, GroupNodes
 from engine3d.stage.views.viewpoint import UP_DIRECTIONS, Viewpoint
 
 TITLES = [title for group in GROUPS for title in group]
@@ -85,7 +87,30 @@ def test_names_are_numbered():
     names = [add_new(scene, "Box", view).name for _ in range(3)]
     assert names == ["box", "box 2", "box 3"]
     scene.remove(scene.find("box 2"))
-    assert free_name(scene, "box") == "box 2" and free_name(scene, "lamp") == "lamp"
+    assert add_new(scene, "Box", view).name == "box 2"
+
+
+def test_copies_have_names_of_their_own():
+    scene = e3d.Scene()
+    top, unnamed = scene.add(name="top"), scene.add()
+    scene.add(name="box 7", parent=top)
+    document = SceneDocument(scene)
+    document.do(DuplicateNodes(scene, [top, unnamed]))
+    document.do(DuplicateNodes(scene, [scene.find("top 2")]))
+    document.do(ArrayNodes(scene, [scene.find("top 3")], (3, 1, 1), (1.0, 0.0, 0.0)))
+    document.do(DuplicateNodes(scene, [scene.find("box 7")]))
+    names = [node.name for node in scene.nodes if node.parent is None]
+    assert names == ["top", "", "top 2", "", "top 3", "top 4", "top 5"]
+    assert [node.name for node in top.children] == ["box 7", "box 8"]
+    document.do(GroupNodes(scene, [scene.find("top 4")]))
+    document.do(GroupNodes(scene, [scene.find("top 5")]))
+    assert scene.find("group").children[0].name == "top 4" and scene.find("group 2")
+    clipboard, other = Clipboard(), e3d.Scene()
+    text, _ = clipboard.copy([top])
+    for into, name in ((scene, "top 6"), (other, "top"), (other, "top 2")):
+        nodes = set(into.nodes)
+        clipboard.paste(into, text).do()
+        assert name in {node.name for node in set(into.nodes) - nodes}
 
 
 def test_a_thing_below_another_stands_where_it_would_without():

@@ -22,7 +22,9 @@ def test_copies_stand_in_rows_along_the_axes_of_the_parent(ball):
     scene = ball.scene
     document = SceneDocument(scene)
     document.do(ArrayNodes(scene, [ball], (2, 3, 2), (10.0, 20.0, 30.0)))
-    balls = [node for node in scene.nodes if node.name == "ball"]
+    names = {"ball", *(f"ball {number}" for number in range(2, 13))}
+    balls = [node for node in scene.nodes if node.name in names]
+    assert {node.name for node in balls} == names
     assert {tuple(node.translation) for node in balls} == {
         (1.0 + x, 2.0 + y, 3.0 + z) for x in (0, 10) for y in (0, 20, 40) for z in (0, 30)
     }

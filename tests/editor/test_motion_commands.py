@@ -188,7 +188,7 @@ def test_copies_move_as_their_originals(document):
     held = motions_in(document.scene).orbits
     assert {orbit.node: orbit.about.name for orbit in held[2:]} == {
         copies[0]: "Sun",
-        copies[1]: "Earth",
+        copies[1]: "Earth 2",
     }
     assert held[3].about is copies[0]
     after = SceneState(document.scene)

@@ -15,6 +15,7 @@ from ...base.language import translated
 from ...errors import InvalidArgumentError
 from ...model.scene.nodes import Node, with_below
 from ...model.scene.scene import Scene
+from .new_things.free_names import FreeNames
 from .node_commands import AddNodes, copy_nodes, counted
 from .selection import topmost
 
@@ -55,14 +56,15 @@ class ArrayNodes(AddNodes):
         originals = topmost(nodes)
 
         def add(scene: Scene) -> None:
+            names = FreeNames(scene.data.names())
             for place in itertools.islice(itertools.product(*map(range, counts)), 1, None):
-                _copy_to(scene, originals, np.multiply(place, steps))
+                _copy_to(scene, originals, np.multiply(place, steps), names)
 
         super().__init__(scene, add, counted(translated("Make an array of"), originals))
 
 
-def _copy_to(scene: Scene, originals: Sequence[Node], offset: np.ndarray) -> None:
-    for twin in copy_nodes(scene, {node: node.parent for node in originals}):
+def _copy_to(scene: Scene, originals: Sequence[Node], offset: np.ndarray, names: FreeNames) -> None:
+    for twin in copy_nodes(scene, {node: node.parent for node in originals}, names):
         pose = twin.pose.copy()
         pose[:3, 3] += offset
         twin.pose = pose

@@ -19,6 +19,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from .history import Command
+from .new_things.free_names import FreeNames
 from .node_commands import AddNodes, copy_nodes
 from .value_commands import SetValues
 
@@ -59,8 +60,10 @@ def drop_file(
     offset = np.zeros(3) if at is None else np.asarray(at, np.float64) - _underside(loaded)
 
     def add(scene: Scene) -> None:
-        group = scene.add(name=stem, translation=offset)
-        copy_nodes(scene, {node: group for node in loaded.nodes if node.parent is None})
+        free = FreeNames(scene.data.names()).free(stem)
+        group = scene.add(name=free, translation=offset)
+        tops = [node for node in loaded.nodes if node.parent is None]
+        copy_nodes(scene, dict.fromkeys(tops, group), FreeNames(()))  # the file's own names
 
     return AddNodes(scene, add, translated("Add {name}", name=os.path.basename(name)))
 

@@ -16,6 +16,7 @@ from ...model.materials.material import Material, copy_of
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.nodes import Node
 from .history import Command
+from .new_things.free_names import FreeNames
 from .node_commands import named
 from .resource_list import ResourceList
 from .value_commands import SetEach, SetValues
@@ -164,13 +165,4 @@ def new_material(resources: ResourceList, like: Material | None = None) -> Mater
 def free_name(resources: ResourceList, name: str) -> str:
     """Return a name that no material has: "red", then "red 2"."""
     taken = {entry.name for entry in resources.entries() if entry.kind == "material"}
-    if name not in taken:
-        return name
-    stem, _, number = name.rpartition(" ")
-    stem = stem if stem and number.isdigit() else name
-    count = 1
-    free = stem
-    while free in taken:
-        count += 1
-        free = f"{stem} {count}"
-    return free
+    return FreeNames(taken).free(name)

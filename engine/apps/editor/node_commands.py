@@ -20,6 +20,7 @@ from ...model.scene.scene import Scene
 from ...model.scene.selection import NodeSelection
 from .history import Command
 from .motion_copies import motions_in, move_alike, put_motions
+from .new_things.free_names import FreeNames
 from .selection import topmost
 
 
@@ -178,7 +179,8 @@ class GroupNodes(Command):
         self._members = topmost(nodes)
         self.label = counted(translated("Group"), self._members)
         parent = self._members[0].parent
-        self._add = AddNodes(scene, lambda scene: scene.add(name=name, parent=parent), "")
+        free = FreeNames(scene.data.names()).free(name)
+        self._add = AddNodes(scene, lambda scene: scene.add(name=free, parent=parent), "")
         self._scene = scene
         self._reparent: Reparent | None = None
 
@@ -297,22 +299,28 @@ def in_world(matrix) -> Callable[[NodeSelection], None]:
     return move
 
 
-def copy_nodes(scene: Scene, parents: Mapping[Node, Node | None]) -> tuple[Node, ...]:
+def copy_nodes(
+    scene: Scene, parents: Mapping[Node, Node | None], names: FreeNames | None = None
+) -> tuple[Node, ...]:
     """Add copies of nodes of any other scene, or of the same one, with their subtrees.
 
-    The copies keep the drawing order of the originals. They move and deform alike.
+    The copies keep the drawing order of the originals. They move and deform alike. Those of the
+    given nodes get a number if the scene has a node of their name.
 
     Parameters
     ----------
     scene : Scene
     parents : dict of Node to Node or None
         The parents of the copies by their originals, none of which is below another.
+    names : FreeNames, optional
+        Of the scene: given where many copies are made one after another.
 
     Returns
     -------
     copies : tuple of Node
         Of the given nodes, in their order.
     """
+    names = names or FreeNames(scene.data.names())
     subtrees = [with_below(node) for node in parents]
     nodes = [node for subtree in subtrees for node in subtree]
     made = {
@@ -325,6 +333,8 @@ def copy_nodes(scene: Scene, parents: Mapping[Node, Node | None]) -> tuple[Node,
         made[original].reparent(parents[original] if is_top else made[original.parent])
     _bend_alike(made)
     move_alike(made)
+    for original in parents:
+        made[original].name = names.free(original.name)
     return tuple(made[node] for node in parents)
 
 

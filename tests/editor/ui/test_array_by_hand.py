@@ -16,7 +16,7 @@ def cab(editor):
 
 
 def cabs(editor):
-    return [node for node in editor.workspace.scene.nodes if node.name == "Cab"]
+    return [node for node in editor.workspace.scene.nodes if node.name.startswith("Cab")]
 
 
 def test_counts_and_distances_are_typed(editor, cab):

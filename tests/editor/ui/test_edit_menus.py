@@ -47,7 +47,7 @@ def test_keys_copy_cut_and_paste(editor):
     pasted = workspace.document.selection.active
     assert len(scene.nodes) == count + 1 and pasted.object is cab.object
     press(editor, "X", control=True)
-    assert len(scene.nodes) == count and entry(editor, "Undo").says() == "Undo cut 'Cab'"
+    assert len(scene.nodes) == count and entry(editor, "Undo").says() == "Undo cut 'Cab 2'"
     press(editor, "V", control=True)
     press(editor, "Z", control=True)
     press(editor, "Z", control=True)

@@ -17,7 +17,7 @@ def test_keys_duplicate_delete_and_undo(editor):
     workspace.document.selection.set([cab])
     press(editor, "D", control=True)
     assert len(scene.nodes) == count + 1
-    assert workspace.document.selection.active.name == "Cab" != cab
+    assert workspace.document.selection.active.name == "Cab 2"
     press(editor, "Delete")
     assert len(scene.nodes) == count
     press(editor, "Z", control=True)

@@ -21,6 +21,7 @@ from ....model.scene.nodes import Node
 from ....model.scene.orbiting import home_axes, orbit_axes
 from ....model.scene.scene import Scene
 from ....stage.views.viewpoint import Viewpoint
+from .free_names import FreeNames
 from .free_places import free_place, places_without_surface
 from .primitive_shapes import PRIMITIVES, new_primitive
 
@@ -102,21 +103,13 @@ def add_new(scene: Scene, title: str, view: Viewpoint, parent: Node | None = Non
     turned, place = _stood(scene, made, view, size)
     node = scene.add(
         made,
-        name=free_name(scene, title.lower()),
+        name=FreeNames(scene.data.names()).free(title.lower()),
         translation=place,
         rotation=linalg.matrix_to_quaternion(turned),
     )
     if parent is not None:
         node.reparent(parent, keep_world_pose=True)
     return node
-
-
-def free_name(scene: Scene, name: str) -> str:
-    """Return a name, with a number if the scene has a node of that name."""
-    taken, free, number = set(scene.data.names()), name, 2
-    while free in taken:
-        free, number = f"{name} {number}", number + 1
-    return free
 
 
 def usual_size(distance: float) -> float:

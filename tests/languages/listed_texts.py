@@ -98,7 +98,7 @@ def of_editor():
     from engine3d.apps.editor.new_things.starts import STARTS
     from engine3d.apps.editor.ui import properties_panel, render_dialog, scene_tools
     from engine3d.apps.editor.ui.keys_window import KEYBOARD, MOUSE
-    from engine3d.apps.editor.ui.materials import materials_panel
+    from engine3d.apps.editor.ui.materials import material_actions
     from engine3d.apps.editor.ui.motion.motion_fields import _ENDS
     from engine3d.apps.editor.ui.overlays import SHOWN
     from engine3d.apps.editor.ui.properties import collider_fields, fog_fields, material_fields
@@ -115,7 +115,7 @@ def of_editor():
     yield from _plain(text for start in STARTS for text in (start.title, start.hint))
     yield from _plain(_ENDS.values())
     yield from _plain(render_dialog._WHAT.values())
-    yield from _plain(kind.capitalize() for kind in materials_panel._KINDS)
+    yield from _plain(kind.capitalize() for kind in material_actions.KINDS)
     yield from _plain(material_fields._part(row) for row in PARAMETERS.values())
     yield from _plain(_arguments_of_primitives())
     yield from _plain(name.capitalize() for name in AREA_SIZES)
@@ -125,7 +125,7 @@ def of_editor():
     yield from (("collider", kind) for kind in collider_fields.COLLIDERS)
     yield from (("fog", kind) for kind in fog_fields.KINDS.values())
     yield from ((name, each) for name, (_, kind) in _CHOICES.items() for each in get_args(kind))
-    yield from (("surface", kind) for kind in materials_panel._KINDS)
+    yield from (("surface", kind) for kind in material_actions.KINDS)
     yield from (("motion", name) for name in NAMES.values())
     yield from (("holds", kind) for kind in ("light", "camera", *properties_panel._KINDS.values()))
     yield from (("environment", name) for name in ("none", *BUILT_IN))

@@ -162,7 +162,7 @@ def test_buttons_of_materials_make_and_copy_them(editor):
     assert set(find(editor, "Cab").object.materials) == {material}
     twin = actions.add(workspace, material)
     actions.rename(workspace, twin, "other")
-    actions.set_physical(workspace, twin, True)
+    actions.set_physical(workspace, [twin], True)
     assert twin.is_physical and not material.is_physical and twin.name == "other"
     actions.discard(workspace, material)
     assert "nodes use" in workspace.console.entries[-1].text

@@ -168,3 +168,40 @@ def test_a_new_selection_starts_at_its_top(editor):
     panel._seen = None
     workspace.document.selection.set([workspace.scene.nodes[3]])
     assert (settle(editor)[:, -200:] == top).all()
+
+
+class ListHand(Fingers):
+    """Opens the list of a label, and chooses what it is told."""
+
+    def begin_combo(self, label, now):
+        self.formats[label] = now
+        return label == self.label or imgui.begin_combo(label, now)
+
+    def end_combo(self):
+        if not self.label:
+            imgui.end_combo()
+
+    def selectable(self, label, chosen):
+        is_it = bool(self.label) and label.partition("##")[0] == self.value
+        return is_it, is_it
+
+
+def test_simple_materials_become_physical_in_properties(editor, monkeypatch, pair):
+    hand = ListHand()
+    monkeypatch.setattr(fields, "imgui", hand)
+    other = e3d.box()
+    other.materials = [e3d.Material(metallic=1.0, roughness=0.2, name="steel")]
+    scene = editor.workspace.scene
+    pair[1].object = other
+    editor.workspace.changes += 1
+    settle(editor)
+    assert hand.formats["##Kind"] == DIFFERS
+    hand.label, hand.value = "##Kind", "physical"
+    settle(editor)
+    hand.label = ""
+    settle(editor)
+    plain = pair[0].object.materials[0]
+    assert plain.is_physical and other.materials[0].roughness == 0.2 and not editor._told
+    assert hand.formats["##Kind"] == "physical"
+    editor.workspace.undo()
+    assert not plain.is_physical and len(scene.nodes) == 4

@@ -5,7 +5,9 @@ In: the workspace. Out: commands.
 
 from __future__ import annotations
 
-from .....base.language import translated, translated_choice
+from collections.abc import Iterable
+
+from .....base.language import translated, translated_choice, translated_count
 from .....errors import InvalidArgumentError
 from .....model.materials.material import Material
 from .....model.scene.nodes import Node
@@ -18,6 +20,8 @@ from ..workspace import Workspace
 
 #: What a dragged material is called.
 PAYLOAD = "material"
+#: What materials are: with the values of Blinn and Phong, or of the metallic-roughness model.
+KINDS = ("simple", "physical")
 _PHYSICAL, _SIMPLE = {"metallic": 0.0, "roughness": 0.5}, {"metallic": None, "roughness": None}
 
 
@@ -56,13 +60,18 @@ def rename(workspace: Workspace, material: Material, name: str) -> None:
         workspace.do(SetValues([material], {"name": name}, label))
 
 
-def set_physical(workspace: Workspace, material: Material, is_physical: bool) -> None:
-    """Make a material physical, or simple."""
-    if is_physical != material.is_physical:
+def set_physical(workspace: Workspace, materials: Iterable[Material], is_physical: bool) -> None:
+    """Make those materials physical, or simple, that are not."""
+    others = [material for material in materials if material.is_physical != is_physical]
+    if others:
         values = _PHYSICAL if is_physical else _SIMPLE
         kind = translated_choice("surface", "physical" if is_physical else "simple")
-        label = translated("Make {name} {kind}", name=repr(material.name), kind=kind)
-        workspace.do(SetValues([material], values, label))
+        name = repr(others[0].name or translated("unnamed"))
+        if len(others) > 1:
+            name = translated_count("{count:,} material", "{count:,} materials", len(others))
+        workspace.do(
+            SetValues(others, values, translated("Make {name} {kind}", name=name, kind=kind))
+        )
 
 
 def drag(material: Material) -> None:

@@ -25,7 +25,6 @@ from . import material_actions as actions
 PICTURE = 64
 #: Seconds for thumbnails per frame; the rest follow in later frames.
 PATIENCE = 0.02
-_KINDS = ("simple", "physical")
 
 
 class MaterialsPanel:
@@ -148,10 +147,10 @@ class MaterialsPanel:
         name = fields.text(material.name)
         if name is not None:
             actions.rename(workspace, material, name)
-        for kind in _KINDS:
+        for kind in actions.KINDS:
             is_physical = kind == "physical"
             if imgui.radio_button(kind.capitalize(), material.is_physical == is_physical):
-                actions.set_physical(workspace, material, is_physical)
+                actions.set_physical(workspace, [material], is_physical)
             imgui.same_line()
         users = workspace.resources.users(material)
         imgui.begin_disabled(not users)

@@ -16,6 +16,7 @@ from .....model.scene.instances import InstancedMesh
 from .....model.scene.nodes import Node
 from ...material_commands import free_name
 from ..files import Files
+from ..materials.material_actions import KINDS, set_physical
 from ..translated_imgui import imgui
 from ..workspace import Workspace
 from .fields import DIFFERS, Fields, name_of
@@ -58,6 +59,7 @@ class MaterialFields:
             if self._fields.folder(f"{title}###material {number}"):
                 imgui.push_id(number)
                 self._draw_use(nodes, meshes, number, materials)
+                self._draw_kind(materials)
                 self.draw_values(materials)
                 imgui.pop_id()
 
@@ -89,6 +91,13 @@ class MaterialFields:
             )
             if self._fields.button("Make a copy of its own"):
                 self._make_own(nodes)
+
+    def _draw_kind(self, materials: Sequence[Material]) -> None:
+        """Lay out whether materials are simple or physical."""
+        now = name_of(KINDS[material.is_physical] for material in materials)
+        chosen = self._fields.choice("Kind", now, [(kind, kind) for kind in KINDS], "surface")
+        if chosen is not None:
+            set_physical(self._workspace, materials, chosen == "physical")
 
     def _make_own(self, nodes: Sequence[Node]) -> None:
         """Give nodes a mesh with materials that no other node uses; they share among themselves."""

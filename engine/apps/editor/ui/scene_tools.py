@@ -31,7 +31,7 @@ _LABELS = 9.0  # letters that they take
 
 def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
     """Lay the row out."""
-    imgui.dummy((scaled(2.0), 0.0))
+    _begin_row()
     for name, key in TOOLS.items():
         label = f"{translated(name.capitalize())} ({key})###{name}"
         _beside(label, boxes=1)
@@ -112,6 +112,13 @@ def _beside(label: str, width: float = 0.0, *, boxes: int = 0) -> None:
     imgui.same_line()
     if imgui.get_content_region_avail().x < width:
         imgui.new_line()
+        _begin_row()
+        imgui.same_line()
+
+
+def _begin_row() -> None:
+    """Keep a row of tools off the panel's edge, where a box without a frame would not be seen."""
+    imgui.dummy((scaled(2.0), 0.0))
 
 
 def _draw_steps(workspace: Workspace) -> None:

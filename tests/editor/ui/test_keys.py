@@ -3,7 +3,7 @@
 import functools
 
 import pytest
-from editor.ui.editor_hands import do, find, press, settle
+from editor.ui.editor_hands import click, do, find, press, scene_corner, settle
 
 import engine3d as e3d
 from engine3d import events
@@ -76,6 +76,18 @@ def test_time_goes_on_until_space_is_pressed_again(editor):
     assert workspace.document.animator.time == time and not workspace.document.is_modified
     workspace.rewind()
     assert base.rotation.tolist() == [0, 0, 0, 1]
+
+
+@pytest.mark.parametrize("key, shift", [("Home", True), ("Home", False), ("End", False)])
+def test_space_plays_after_keys_that_lead_to_an_end(editor, key, shift):
+    workspace = editor.workspace
+    workspace.document.animator.spin(find(editor, "Base"), period=5)
+    x, y = scene_corner(editor)
+    click(editor, x + 5, y + 60)  # the panel of the scene has the keyboard
+    workspace.document.selection.set([find(editor, "Base")])
+    press(editor, key, shift=shift)
+    press(editor, "Space")
+    assert workspace.plays and workspace.tools.chosen == "select"
 
 
 @pytest.mark.parametrize(

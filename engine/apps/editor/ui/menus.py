@@ -18,6 +18,7 @@ from .array_dialog import ArrayDialog
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
 from .keyboard.command_search import CommandSearch
+from .keyboard.owned_keys import own
 from .keyboard.panel_focus import to_panel
 from .keyboard.parent_choice import ParentChoice, put_below
 from .materials.material_actions import add_to_selected
@@ -31,6 +32,9 @@ from .workspace import PANELS, Workspace
 #: The entry below which recent files are.
 OPEN = "Open ..."
 _WINDOW = "Window"
+#: Keys of entries that would also lead ImGui's cursor to the first or last item of a panel, which
+#: Space then presses.
+_OWNED = ("home", "end")
 #: Keys that count also while somebody types: they lead away from the text.
 _LEADING_AWAY = ("F1", "F3", "F6", "Shift+F6", "F10")
 #: Keys that are in several places, or called otherwise.
@@ -316,6 +320,8 @@ def press_keys(listed: list[Entry]) -> None:
     popup = imgui.is_popup_open("", imgui.PopupFlags_.any_popup)
     if popup or imgui.is_mouse_down(1):
         return
+    if not io.want_text_input:
+        own("menus", _OWNED)
     for entry in listed:
         if not entry.keys or (io.want_text_input and entry.keys not in _LEADING_AWAY):
             continue

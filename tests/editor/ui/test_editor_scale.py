@@ -110,6 +110,13 @@ def test_a_layout_is_enlarged_for_a_finer_screen(opened, scale):
         assert [side / scale for side in size] == pytest.approx(small[name], abs=6)
 
 
+def test_a_layout_of_a_wider_window_is_not_used(opened):
+    usual = saved_sizes(opened, 1.0, (700, 500))
+    layout_path().unlink()
+    saved_sizes(opened, 1.0, SIZE)
+    assert saved_sizes(opened, 1.0, (700, 500)) == usual
+
+
 def test_a_layout_too_wide_for_the_screen_is_not_used(opened):
     saved_sizes(opened, 1.0, SIZE)
     sizes = saved_sizes(opened, 2.0, SIZE)

@@ -58,8 +58,8 @@ def load_layout(workspace: Workspace, size: tuple[int, int]) -> bool:
     ratio = _scale_ratio(settings)
     if ratio != 1.0:
         text = _enlarged(text, ratio)
-        if _width_of(text) > _ROOM * size[0]:
-            return False
+    if _width_of(text) > _ROOM * size[0]:  # panels at the sides would keep their width
+        return False
     imgui.load_ini_settings_from_memory(text)
     return True
 

@@ -7,6 +7,7 @@ from editor.ui.editor_hands import click, do, drag, find, press, scene_corner, s
 import engine3d as e3d
 from engine3d import events
 from engine3d.apps.editor.ui.keys_window import KeysWindow
+from engine3d.apps.editor.ui.overlays import place_of_name
 from engine3d.apps.editor.ui.view.clickable_axes import MARGIN
 from engine3d.apps.editor.ui.view.ground_grid import GroundGrid, grid_sphere
 from engine3d.apps.editor.ui.view.standard_views import STANDARD_VIEWS
@@ -136,6 +137,20 @@ def test_a_selected_camera_shows_what_it_sees(fresh):
     drawn = preview._drawn
     settle(fresh)
     assert preview._drawn is drawn, "it is drawn once"
+
+
+@pytest.mark.parametrize(
+    "pixel, place",
+    [
+        ((50.0, 40.0), (60.0, 35.0)),
+        ((0.0, 0.0), (10.0, 0.0)),
+        ((95.0, 79.5), (55.0, 70.0)),  # to the left, where there is room
+        ((-1.0, 40.0), None),
+        ((50.0, 80.0), None),
+    ],
+)
+def test_names_are_not_cut_by_the_edge_of_the_picture(pixel, place):
+    assert place_of_name(pixel, (30.0, 10.0), (100, 80), 10.0) == place
 
 
 def test_an_empty_is_seen_and_clicked(fresh):

@@ -95,7 +95,7 @@ class Overlays:
         lines.push_clip_rect(corner, (corner.x + frame.width, corner.y + frame.height), True)
         for ends, color in self._lines:
             _draw_lines(lines, ends + np.array([corner.x, corner.y]), color)
-        _draw_names(lines, corner, self._names)
+        _draw_names(lines, corner, frame.size, self._names)
         lines.pop_clip_rect()
 
     def _collect(self, frame: Frame, segments: np.ndarray, color: Color) -> None:
@@ -175,20 +175,35 @@ def _normals(node: Node) -> np.ndarray:
     return linalg.transform_points(node.world_pose, points).reshape(2, -1, 3).swapaxes(0, 1)
 
 
-def _draw_names(lines, corner, texts: Sequence[tuple[str, list[float]]]) -> None:
+def _draw_names(
+    lines, corner, room: tuple[int, int], texts: Sequence[tuple[str, list[float]]]
+) -> None:
     """Draw names beside their places, on a dark ground; those that would overlap are left out."""
     color, ground = imgui.get_color_u32(_ICON), imgui.get_color_u32(SHADOW)
     taken: list[tuple[float, float, float, float]] = []
-    for text, (x, y) in texts:
+    for text, pixel in texts:
         size = imgui.calc_text_size(text)
-        aside = ICON_SIZE / 2 * imgui.get_font_size()
-        left, top = corner.x + x + aside, corner.y + y - size.y / 2
+        place = place_of_name(pixel, size, room, ICON_SIZE / 2 * imgui.get_font_size())
+        if place is None:
+            continue
+        left, top = corner.x + place[0], corner.y + place[1]
         box = (left - 2.0, top, left + size.x + 2.0, top + size.y)
         if any(_overlap(box, other) for other in taken):
             continue
         taken.append(box)
         lines.add_rect_filled(box[:2], box[2:], ground, 3.0)
         lines.add_text((left, top), color, text)
+
+
+def place_of_name(
+    pixel: Sequence[float], size: Sequence[float], room: Sequence[float], aside: float
+) -> tuple[float, float] | None:
+    """Return where a name stands beside a pixel, whole; None if that is out of the picture."""
+    (x, y), (wide, high) = pixel, size
+    if not (0.0 <= x < room[0] and 0.0 <= y < room[1]):
+        return None
+    left = x + aside if x + aside + wide <= room[0] else max(x - aside - wide, 0.0)
+    return left, min(max(y - high / 2, 0.0), room[1] - high)
 
 
 def _overlap(a: tuple[float, ...], b: tuple[float, ...]) -> bool:

@@ -145,8 +145,9 @@ def test_a_selected_camera_shows_what_it_sees(fresh):
         ((50.0, 40.0), (60.0, 35.0)),
         ((0.0, 0.0), (10.0, 0.0)),
         ((95.0, 79.5), (55.0, 70.0)),  # to the left, where there is room
-        ((-1.0, 40.0), None),
-        ((50.0, 80.0), None),
+        ((-9.0, 40.0), (1.0, 35.0)),  # half of the icon shows
+        ((-11.0, 40.0), None),
+        ((50.0, 91.0), None),
     ],
 )
 def test_names_are_not_cut_by_the_edge_of_the_picture(pixel, place):

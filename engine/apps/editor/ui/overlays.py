@@ -200,8 +200,8 @@ def place_of_name(
 ) -> tuple[float, float] | None:
     """Return where a name stands beside a pixel, whole; None if that is out of the picture."""
     (x, y), (wide, high) = pixel, size
-    if not (0.0 <= x < room[0] and 0.0 <= y < room[1]):
-        return None
+    if not (-aside < x < room[0] + aside and -aside < y < room[1] + aside):
+        return None  # nor is any of its icon to be seen
     left = x + aside if x + aside + wide <= room[0] else max(x - aside - wide, 0.0)
     return left, min(max(y - high / 2, 0.0), room[1] - high)
 

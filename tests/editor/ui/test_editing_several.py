@@ -5,6 +5,7 @@ import pytest
 from editor.ui.editor_hands import settle
 
 import engine3d as e3d
+from engine3d.apps.editor.ui.motion import motion_fields
 from engine3d.apps.editor.ui.properties import fields
 from engine3d.apps.editor.ui.properties.fields import DIFFERS
 
@@ -205,3 +206,20 @@ def test_simple_materials_become_physical_in_properties(editor, monkeypatch, pai
     assert hand.formats["##Kind"] == "physical"
     editor.workspace.undo()
     assert not plain.is_physical and len(scene.nodes) == 4
+
+
+def test_the_section_of_motion_says_whose_it_is(editor, monkeypatch, pair):
+    titles = []
+
+    class Reader(Fingers):
+        def collapsing_header(self, title, *flags):
+            titles.append(title.partition("###")[0])
+            return imgui.collapsing_header(title, *flags)
+
+    monkeypatch.setattr(motion_fields, "imgui", Reader())
+    editor.workspace.document.selection.set(pair)
+    settle(editor)
+    assert titles[-1] == "Motion of box 1"
+    editor.workspace.document.selection.set(pair[:1])
+    settle(editor)
+    assert titles[-1] == "Motion"

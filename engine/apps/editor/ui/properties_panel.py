@@ -87,7 +87,7 @@ class PropertiesPanel:
         if self._kinds_of(nodes) == {"mesh"}:  # it may have gone meanwhile
             self._materials.draw(nodes)
             draw_colliders(self._fields, nodes)
-        self._motion.draw(nodes[-1])
+        self._motion.draw(nodes[-1], is_one_of_several=len(nodes) > 1)
         self._draw_switches(nodes)
 
     def _draw_head(self, nodes: Sequence[Node]) -> None:

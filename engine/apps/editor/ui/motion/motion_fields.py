@@ -53,11 +53,14 @@ class MotionFields:
         self._drag: Hashable = None
         self._search = ""
 
-    def draw(self, node: Node) -> None:
-        """Lay the section out."""
+    def draw(self, node: Node, *, is_one_of_several: bool = False) -> None:
+        """Lay the section of a node out; it says whose it is if several are selected."""
         if not imgui.is_any_item_active():
             self._drag = None  # the mouse let go
-        if not imgui.collapsing_header("Motion", imgui.TreeNodeFlags_.default_open):
+        title = translated("Motion")
+        if is_one_of_several:
+            title = translated("Motion of {name}", name=_name(node))
+        if not imgui.collapsing_header(f"{title}###Motion", imgui.TreeNodeFlags_.default_open):
             return
         held = motions_in(self._workspace.scene).of(node)
         for motion in held:

@@ -157,6 +157,27 @@ def test_a_drag_of_the_gizmo_is_one_step(editor):
     assert np.array_equal(cab.world_pose, np.eye(4))
 
 
+@pytest.mark.parametrize("azimuth", [0.5, 0.5 + np.pi])
+def test_the_red_arrow_points_along_x_from_everywhere(editor, azimuth):
+    workspace, cab = editor.workspace, find(editor, "Cab")
+    workspace.document.selection.set([cab])
+    workspace.view.azimuth = azimuth
+    corner = scene_corner_of_gizmo(editor)
+    plain = settle(editor).astype(int)
+    press(editor, "W")
+    picture = settle(editor).astype(int)
+    is_red = picture[..., 0] - picture[..., 1:3].max(-1) > 60
+    red = is_red & (np.abs(picture - plain).max(-1) > 20)
+    red[: int(corner[1])] = red[:, : int(corner[0])] = False  # beside the scene
+    center, tip = (
+        editor._scene._frame.project(place)[0]
+        for place in (cab.world_pose[:3, 3], cab.world_pose[:3, 3] + cab.world_pose[:3, 0])
+    )
+    rows, columns = np.nonzero(red)
+    drawn = np.array([columns.mean(), rows.mean()]) - corner - center
+    assert red.sum() > 20 and drawn @ (np.array(tip) - center) > 0
+
+
 def scene_corner_of_gizmo(editor):
     """The scene's corner, found before the gizmo was drawn over it."""
     tool, editor.workspace.tools.chosen = editor.workspace.tools.chosen, "select"

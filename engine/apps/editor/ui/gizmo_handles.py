@@ -43,6 +43,7 @@ class GizmoHandles:
             return False
         gizmo = imguizmo.im_guizmo
         gizmo.set_orthographic(workspace.view.orthographic)
+        gizmo.allow_axis_flip(False)  # arrows point along +X, +Y, +Z from wherever one looks
         gizmo.set_drawlist(imgui.get_window_draw_list())
         gizmo.set_rect(corner.x, corner.y, *map(float, size))
         old = nodes[-1].world_pose

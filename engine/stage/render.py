@@ -52,7 +52,7 @@ def render(
 
     Parameters
     ----------
-    scene : path-like, Scene, Node, Mesh, InstancedMesh, World, array, or another library's object
+    scene : path-like, Scene, Node, Mesh, InstancedMesh, array, or another library's object
         An array of shape (N, 3) holds points, (N, 6) points with colours, (N, 2, 3) segments,
         (N, 3, 3) triangles, (H, W) heights, (X, Y, Z) of bool voxels; a pair of arrays holds
         vertices and faces. Other libraries are trimesh, PyVista, meshio, Open3D,

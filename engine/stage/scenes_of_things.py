@@ -25,11 +25,10 @@ def scene_of(thing: Any) -> Scene | None:
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, array, several nodes, or another library's object
+    thing : Scene, Node, Mesh, InstancedMesh, array, or another library's object
         Libraries are trimesh, PyVista, meshio and Open3D; a list of their objects is taken, too. A
         scene is returned unchanged. Arrays are what `mesh_of_arrays` takes. For a node, the new
-        scene holds its visible subtree at its world poses, in its current deformation. Several
-        nodes are what `Scene.add` takes as such.
+        scene holds its visible subtree at its world poses, in its current deformation.
     """
     if isinstance(thing, Scene):
         return thing
@@ -40,7 +39,7 @@ def scene_of(thing: Any) -> Scene | None:
     scene = Scene()
     if (mesh := mesh_of_arrays(thing)) is not None:
         thing = mesh
-    if isinstance(thing, Mesh | InstancedMesh) or hasattr(type(thing), "add_to"):
+    if isinstance(thing, Mesh | InstancedMesh):
         scene.add(thing, name=getattr(thing, "name", "") or "mesh")
     elif isinstance(thing, Node):
         if thing.scene is not None:

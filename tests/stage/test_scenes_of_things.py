@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.detail import DetailedInstances
 from engine3d.stage.scenes_of_things import scene_of
 
 POINTS = np.array([(0, 0, 0, 1), (3, 0, 0, 1)], np.float32)
@@ -51,13 +50,3 @@ def test_a_scene_is_itself_and_other_things_are_refused():
     assert scene_of(scene) is scene and scene_of("cube.obj") is None
     with pytest.raises(e3d.InvalidArgumentError, match="a scene, a node, a mesh .* not int"):
         e3d.render(5)
-
-
-def test_several_nodes_are_a_scene():
-    poses = np.tile(np.eye(4), (3, 1, 1))
-    poses[:, 0, 3] = 0, 2, 4
-    several = DetailedInstances(e3d.box(), poses)
-    scene = e3d.Scene()
-    scene.add(several)
-    drawn = [e3d.render(thing, size=(32, 24)).color for thing in (several, scene)]
-    assert np.array_equal(*drawn)

@@ -137,7 +137,8 @@ def _of_nerfstudio(said: Mapping[str, Any], what: str) -> Camera:
 def _of_nerf(said: Mapping[str, Any], what: str) -> Camera:
     """Return the camera of NeRF's ``transforms.json``, whose angle counts in widths."""
     if "fl_x" in said:  # instant-ngp's
-        return _of_nerfstudio({"camera_model": "OPENCV", **said}, what)
+        model = "OPENCV_FISHEYE" if said.get("is_fisheye") is True else "OPENCV"
+        return _of_nerfstudio({"camera_model": model, **said}, what)
     size, angle = stated_size(said), _number(said, "camera_angle_x", what)
     if size is None:
         raise InvalidArgumentError(f"{what}: camera_angle_x of NeRF counts with w and h only")

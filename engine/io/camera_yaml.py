@@ -32,7 +32,11 @@ def calibration(data: bytes) -> Any:
         message = needed("a calibration of ROS in YAML needs", "PyYAML")
         raise InvalidArgumentError(message) from None
     try:
+        # Aliases of aliases make a few bytes billions of numbers.
+        if any(isinstance(token, yaml.AliasToken) for token in yaml.scan(data)):
+            raise InvalidArgumentError("a calibration of ROS has no aliases")
         return next(yaml.safe_load_all(data))
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
+    # PyYAML's constructors of tagged scalars raise what Python's do.
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError) as error:
         said = " ".join(str(error).split())
         raise InvalidArgumentError(f"damaged YAML: {said}") from None

@@ -111,6 +111,12 @@ def test_copies_have_names_of_their_own():
         nodes = set(into.nodes)
         clipboard.paste(into, text).do()
         assert name in {node.name for node in set(into.nodes) - nodes}
+    source, target = e3d.Scene(), e3d.Scene()
+    source.add(name="ball 2"), source.add(name="ball"), source.add(name="a"), source.add(name="a")
+    text, _ = clipboard.copy(source.nodes)
+    target.add(name="ball")
+    clipboard.paste(target, text).do()
+    assert sorted(node.name for node in target.nodes) == ["a", "a 2", "ball", "ball 2", "ball 3"]
 
 
 def test_a_thing_below_another_stands_where_it_would_without():

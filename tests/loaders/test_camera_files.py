@@ -56,6 +56,10 @@ K = [300.0, 0.0, 319.5, 0.0, 310.0, 239.5, 0.0, 0.0, 1.0]
             {"camera_angle_x": 1.0, "fl_x": 9, "fl_y": 8, "cx": 3, "cy": 2, "w": 6, "h": 4},
             e3d.IntrinsicsCamera(9, 8, 3, 2),
         ),
+        (
+            {"is_fisheye": True, "fl_x": 9, "fl_y": 8, "cx": 3, "cy": 2, "k1": 0.1, "k4": 0.2},
+            e3d.FisheyeCamera(9, 8, 3, 2, (0.1, 0, 0, 0.2)),
+        ),
         ({"camera_model": "EQUIRECTANGULAR"}, e3d.EquirectangularCamera()),
         ({"model": "PINHOLE", "params": [9, 8, 3, 2]}, e3d.IntrinsicsCamera(9, 8, 3, 2)),
         (
@@ -139,6 +143,11 @@ def test_yaml_of_ros_is_read(text):
         SAVED + b"#" * 70_000,
         b"distortion_model: " + b"[" * 60_000,
         b"distortion_model: plumb_bob\nk: 2001-13-45\n",
+        *(
+            b"distortion_model: plumb_bob\nk: %s\n" % value
+            for value in (b"!!bool x", b"!!int ''", b"!!float ''", b"!!timestamp x", b"&a [1, *a]")
+        ),
+        b"distortion_model: plumb_bob\na: &a [1, 1, 1]\nb: &b [*a, *a]\nk: [*b, *b]\n",
     ],
 )
 def test_damaged_yaml_is_refused(text):

@@ -18,6 +18,7 @@ from ...io.scenes.scene_loading import scene_from_document
 from ...io.writing.scene_saving import scene_text
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
+from .new_things.free_names import FreeNames
 from .node_commands import AddNodes, copy_nodes, counted
 from .recovery import ROOT
 from .selection import topmost
@@ -60,7 +61,8 @@ class Clipboard:
             raise FileFormatError("the clipboard holds no nodes")
 
         def add(scene: Scene) -> None:
-            for node in copy_nodes(scene, dict.fromkeys(roots)):
+            names = FreeNames(scene.data.names())
+            for node in copy_nodes(scene, dict.fromkeys(roots), names):
                 if parent is not None:
                     node.reparent(parent, keep_world_pose=True)
 

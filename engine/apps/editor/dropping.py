@@ -63,7 +63,7 @@ def drop_file(
         free = FreeNames(scene.data.names()).free(stem)
         group = scene.add(name=free, translation=offset)
         tops = [node for node in loaded.nodes if node.parent is None]
-        copy_nodes(scene, dict.fromkeys(tops, group), FreeNames(()))  # the file's own names
+        copy_nodes(scene, dict.fromkeys(tops, group))
 
     return AddNodes(scene, add, translated("Add {name}", name=os.path.basename(name)))
 

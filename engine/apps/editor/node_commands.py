@@ -110,11 +110,12 @@ class DuplicateNodes(AddNodes):
 
     def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
         originals = topmost(nodes)
-        super().__init__(
-            scene,
-            lambda scene: copy_nodes(scene, {node: node.parent for node in originals}),
-            counted(translated("Duplicate"), originals),
-        )
+
+        def add(scene: Scene) -> None:
+            parents = {node: node.parent for node in originals}
+            copy_nodes(scene, parents, FreeNames(scene.data.names()))
+
+        super().__init__(scene, add, counted(translated("Duplicate"), originals))
 
 
 class Reparent(Command):
@@ -304,8 +305,7 @@ def copy_nodes(
 ) -> tuple[Node, ...]:
     """Add copies of nodes of any other scene, or of the same one, with their subtrees.
 
-    The copies keep the drawing order of the originals. They move and deform alike. Those of the
-    given nodes get a number if the scene has a node of their name.
+    The copies keep the drawing order of the originals. They move and deform alike.
 
     Parameters
     ----------
@@ -313,14 +313,14 @@ def copy_nodes(
     parents : dict of Node to Node or None
         The parents of the copies by their originals, none of which is below another.
     names : FreeNames, optional
-        Of the scene: given where many copies are made one after another.
+        Of the scene: the copies of the given nodes get names that nothing else has. Without, they
+        are called as the originals.
 
     Returns
     -------
     copies : tuple of Node
         Of the given nodes, in their order.
     """
-    names = names or FreeNames(scene.data.names())
     subtrees = [with_below(node) for node in parents]
     nodes = [node for subtree in subtrees for node in subtree]
     made = {
@@ -333,8 +333,9 @@ def copy_nodes(
         made[original].reparent(parents[original] if is_top else made[original.parent])
     _bend_alike(made)
     move_alike(made)
-    for original in parents:
-        made[original].name = names.free(original.name)
+    if names is not None:
+        for original in parents:
+            made[original].name = names.free(original.name)
     return tuple(made[node] for node in parents)
 
 

@@ -151,16 +151,17 @@ class ViewerState:
         if not lighting.turn(self.view.pose(), dx * full_turn, dy * full_turn):
             self.say("these lights cannot be turned: L chooses others")
 
-    def focus(self, x: int, y: int) -> None:
-        """Centre the clicked point, and orbit around it."""
+    def focus(self, x: int, y: int) -> bool:
+        """Centre the clicked point, and orbit around it; return whether something is there."""
         hit = self.view_renderer.pick(self.view, self.time, x, y)
         if hit is None or not np.isfinite(hit.position).all():
-            return
+            return False
         ahead = linalg.dot(hit.position - self.view.position(), -self.view.rotation()[:, 2])
         self.view.target = hit.position.copy()
         if not self.view.orthographic:
             self.view.distance = max(MIN_DISTANCE, float(ahead))
         self.redraw()
+        return True
 
     def reset_view(self) -> None:
         """Go back to the first view."""

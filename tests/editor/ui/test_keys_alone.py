@@ -128,6 +128,20 @@ def test_the_search_of_the_tree_leads_to_what_it_found(planets):
     assert selected(planets) == ["sun"], "arrows go on in the tree"
 
 
+def test_nothing_is_gone_to_below_a_node_of_which_only_the_name_was_found(planets):
+    for name in ("sun", "moon"):
+        planets.workspace.hierarchy.search = name
+        go_to(planets, "Hierarchy")
+        planets.workspace.document.selection.set([find(planets, name)])
+        press(planets, "Right")
+        assert selected(planets) == [name]
+    planets.workspace.hierarchy.search = "n"  # sun and moon, not earth
+    planets.workspace.document.selection.set([find(planets, "sun")])
+    press(planets, "Right")
+    assert selected(planets) == ["sun"]
+    assert not [entry for entry in planets.workspace.console.entries if "Error" in entry.text]
+
+
 def test_a_parent_is_chosen_by_its_name_and_taken_back(planets):
     workspace, moon, earth = planets.workspace, find(planets, "moon"), find(planets, "earth")
     before, place = SceneState(workspace.scene), moon.world_pose
@@ -139,6 +153,8 @@ def test_a_parent_is_chosen_by_its_name_and_taken_back(planets):
     np.testing.assert_allclose(moon.world_pose, place)
     press(planets, "P", control=True, shift=True)
     assert moon.parent is None
+    press(planets, "P", control=True, shift=True)
+    assert len(workspace.document.history.steps) == 2, "it was there already"
     workspace.undo()
     workspace.undo()
     assert SceneState(workspace.scene) == before
@@ -147,9 +163,20 @@ def test_a_parent_is_chosen_by_its_name_and_taken_back(planets):
 def test_what_is_below_a_node_is_no_parent_of_it(planets):
     planets.workspace.document.selection.set([find(planets, "sun")])
     press(planets, "P", control=True)
+    from imgui_bundle import imgui
+
     type_text(planets, "earth")
+    told = len(planets.workspace.console.entries)
     press(planets, "Return")
-    assert find(planets, "sun").parent is None
+    assert imgui.is_popup_open("", imgui.PopupFlags_.any_popup), "nothing was found to choose"
+    assert len(planets.workspace.console.entries) == told
+    for _ in "earth":
+        press(planets, "Backspace")
+    type_text(planets, "moon")
+    press(planets, "Return")
+    assert find(planets, "sun").parent is find(planets, "moon"), "it is still typed into"
+    press(planets, "Z", control=True)
+    press(planets, "P", control=True)
     press(planets, "Escape")
     press(planets, "Delete")
     assert [node.name for node in planets.workspace.scene.nodes] == ["moon"], "it is closed"
@@ -227,6 +254,21 @@ def test_shift_makes_a_tenth_of_a_step_along_the_axes_that_one_sees(planets):
     np.testing.assert_allclose(moon.translation, (3, 0, -0.025))
 
 
+def test_arrows_leave_flat_nodes_and_rendered_views_alone(planets):
+    workspace, moon = planets.workspace, find(planets, "moon")
+    moon.scale = (1, 0, 1)
+    workspace.document.selection.set([moon])
+    workspace.tools.is_local = True
+    for tool in "WER":
+        press(planets, tool)
+        press(planets, "PageUp")
+    assert not [entry for entry in workspace.console.entries if "Error" in entry.text]
+    workspace.display.as_rendered = True
+    steps = len(workspace.document.history.steps)
+    press(planets, "Right")
+    assert len(workspace.document.history.steps) == steps
+
+
 def test_a_held_arrow_is_one_step(planets):
     workspace, moon = planets.workspace, find(planets, "moon")
     workspace.document.selection.set([moon])
@@ -251,10 +293,14 @@ def test_keys_turn_and_move_the_view_and_bring_it_nearer(editor):
     press(editor, "4")
     press(editor, "2")
     assert (view.azimuth, view.elevation) == pytest.approx((azimuth, elevation))
-    press(editor, "+")
-    assert view.distance < distance
-    press(editor, "-")
-    assert view.distance == pytest.approx(distance)
+    for shift in (False, True):  # most keyboards type a plus with Shift
+        press(editor, "+", shift=shift)
+        assert view.distance < distance
+        press(editor, "-")
+        assert view.distance == pytest.approx(distance)
+    for place, sign, change in (("6", "-", 15), ("4", "'", 0)):  # of the row of digits on AZERTY
+        do(editor, events.KeyDown(sign, place), events.KeyUp(sign, place))
+        assert view.azimuth == pytest.approx(azimuth + np.radians(change))
     target, (right, up, _) = view.target.copy(), view.rotation().T
     for key, axis in (("6", right), ("8", up)):
         press(editor, key, control=True)
@@ -289,16 +335,18 @@ def test_a_file_is_chosen_by_arrows_and_enter(editor, tmp_path, monkeypatch):
     assert editor.workspace.document.path == str(folder / "b.e3d.json")
 
 
-def test_a_new_file_keeps_its_name_in_another_folder(editor, tmp_path, monkeypatch):
+@pytest.mark.parametrize("typed", ["", "mine"])
+def test_a_new_file_keeps_its_name_in_another_folder(editor, tmp_path, monkeypatch, typed):
     (tmp_path / "here").mkdir()
     monkeypatch.setattr(editor._files._dialog._last, "of_new", str(tmp_path))
     press(editor, "S", control=True)
     settle(editor)
+    type_text(editor, typed)
     for key in ("Down", "Return"):
         press(editor, key)
     settle(editor)
     press(editor, "Return")
-    assert (tmp_path / "here" / "scene.e3d.json").exists()
+    assert (tmp_path / "here" / f"{typed or 'scene'}.e3d.json").exists()
 
 
 def test_what_is_typed_in_the_list_of_keys_is_looked_for_there(editor):

@@ -25,7 +25,10 @@ class FreeNames:
 
     def free(self, name: str) -> str:
         """Return a name as it is, or with the next number if it is taken; "" stays."""
-        if not name or name not in self._taken:
+        if not name:
+            return name
+        if name not in self._taken:
+            self._taken.add(name)
             return name
         stem, count = _parts(name)
         count = max(self._last.get(stem, 1), count) + 1

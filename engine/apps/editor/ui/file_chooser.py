@@ -273,16 +273,20 @@ class FileDialog:
         imgui.end_disabled()
         goes_up = imgui.get_io().key_alt and imgui.is_key_pressed(imgui.Key.up_arrow)
         if goes_up:
-            self._go(os.path.dirname(self._folder))
-            self._name, self._focuses = self._proposed or "", True
+            self._enter(os.path.dirname(self._folder))
         elif (pressed or entered) and self._name and os.path.isdir(path):
-            self._go(path)
-            self._name, self._focuses = self._proposed or "", True
+            self._enter(path)
         elif (pressed or entered) and self._name:
             self._finish()
         imgui.same_line()
         if imgui.button("Cancel") or imgui.is_key_pressed(imgui.Key.escape):
             self._close()
+
+    def _enter(self, folder: str) -> None:
+        """Go to a folder; the name of a new file stays."""
+        typed = self._steps.typed_before(self._name) if self._is_new else ""
+        self._go(folder)
+        self._name, self._focuses = typed or self._proposed or "", True
 
     def _finish(self) -> None:
         path = os.path.join(self._folder, self._name)

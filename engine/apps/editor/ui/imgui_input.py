@@ -39,6 +39,7 @@ _NAMES = {
     "Keypad -": "keypad_subtract",
     "Keypad +": "keypad_add",
 }
+_DIGITS = tuple("0123456789")
 _SAME = ("Space", "Escape", "Tab", "Backspace", "Insert", "Delete", "Home", "End")
 _MODIFIERS = {
     "Left Ctrl": ("left_ctrl", "mod_ctrl"),
@@ -55,8 +56,8 @@ def _keys() -> dict[str, imgui.Key]:
     names = dict(_NAMES)
     names.update({name: name.lower() for name in _SAME})
     names.update({letter: letter.lower() for letter in "ABCDEFGHIJKLMNOPQRSTUVWXYZ"})
-    names.update({digit: f"_{digit}" for digit in "0123456789"})
-    names.update({f"Keypad {digit}": f"keypad{digit}" for digit in "0123456789"})
+    names.update({digit: f"_{digit}" for digit in _DIGITS})
+    names.update({f"Keypad {digit}": f"keypad{digit}" for digit in _DIGITS})
     names.update({f"F{number}": f"f{number}" for number in range(1, 13)})
     names.update({name: key for name, (key, _) in _MODIFIERS.items()})
     return {name: getattr(imgui.Key, key) for name, key in names.items()}
@@ -122,7 +123,10 @@ class ImguiInput:
             io.add_key_event(imgui.Key.mod_shift, event.shift)
         if event.position in _MODIFIERS:
             io.add_key_event(getattr(imgui.Key, _MODIFIERS[event.position][1]), down)
-        key = self._keys.get(event.key) or self._keys.get(event.position)
+        # The row of digits counts by its places: on AZERTY, it types "&é'(-" and so on.
+        is_digit = event.position in _DIGITS
+        key = None if is_digit else self._keys.get(event.key)
+        key = key or self._keys.get(event.position)
         if key is not None:
             io.add_key_event(key, down)
 

@@ -329,17 +329,21 @@ def press_keys(listed: list[Entry]) -> None:
         if entry.keys == "Space" and io.nav_visible:
             continue
         control, shift, keys = _chord(entry.keys)
-        held = io.key_ctrl == control and io.key_shift == shift and not io.key_alt
+        held = io.key_ctrl == control and shift in (None, io.key_shift) and not io.key_alt
         if held and any(imgui.is_key_pressed(key, False) for key in keys) and entry.is_enabled():
             entry.act()
 
 
 @cache
-def _chord(keys: str) -> tuple[bool, bool, tuple[imgui.Key, ...]]:
-    """Return whether Ctrl and Shift are held, and the keys; a digit's is on the keypad, too."""
+def _chord(keys: str) -> tuple[bool, bool | None, tuple[imgui.Key, ...]]:
+    """Return whether Ctrl and Shift are held, and the keys; a digit's is on the keypad, too.
+
+    Shift may be held or not, None, for a plus: many keyboards type it with Shift.
+    """
     *modifiers, key = keys[:-1].split("+")  # the last one may be the plus itself
     key += keys[-1]
     names = _PLACES.get(key) or (key.lower(),)
     if key.isdigit():
         names = f"_{key}", f"keypad{key}"
-    return "Ctrl" in modifiers, "Shift" in modifiers, tuple(getattr(imgui.Key, n) for n in names)
+    shift = None if key == "+" else "Shift" in modifiers
+    return "Ctrl" in modifiers, shift, tuple(getattr(imgui.Key, name) for name in names)

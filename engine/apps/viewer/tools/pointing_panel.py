@@ -48,9 +48,8 @@ class PointingPanel(Panel):
         """Do what a click at a pixel does; with Shift, a double click."""
         viewer = self.viewer
         if not shift:
-            viewer.selected = viewer.view_renderer.pick(viewer.view, viewer.time, x, y)
-        elif viewer.walker is None:
-            viewer.focus(x, y)
+            viewer.select(x, y)
+        elif viewer.walker is None and viewer.focus(x, y):
             self._at = (0.5, 0.5)  # where the place now is
 
     def key(self, event) -> bool:

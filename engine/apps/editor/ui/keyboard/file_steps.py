@@ -23,6 +23,11 @@ class FileSteps:
     def __init__(self) -> None:
         self.items: Sequence[Item] = ()
         self._scrolls = False
+        self._typed = self._reached = ""
+
+    def typed_before(self, name: str) -> str:
+        """Return what was typed before arrow keys led to a name; "" if they did not."""
+        return self._typed if name == self._reached else ""
 
     def _place(self, name: str) -> int | None:
         names = [item.name for item in self.items]
@@ -30,12 +35,15 @@ class FileSteps:
 
     def step(self, data) -> int:
         """Replace the name in a text field by the one that an arrow key leads to."""
-        if self.items:
+        if self.items and not imgui.get_io().key_alt:
+            if data.buf != self._reached:
+                self._typed = data.buf
             step = -1 if data.event_key == imgui.Key.up_arrow else 1
             place = self._place(data.buf)
             place = min(step, 0) if place is None else place + step
             data.delete_chars(0, data.buf_text_len)
-            data.insert_chars(0, self.items[place % len(self.items)].name)
+            self._reached = self.items[place % len(self.items)].name
+            data.insert_chars(0, self._reached)
             data.select_all()
             self._scrolls = True
         return 0

@@ -13,6 +13,7 @@ from ..translated_imgui import imgui
 from .owned_keys import STEPS, own, pressed
 
 _SIZE = 34, 24  # in heights of the font
+_STAYS_OPEN = imgui.SelectableFlags_.no_auto_close_popups
 
 
 class Option(NamedTuple):
@@ -52,7 +53,7 @@ class ListDialog:
         self._found: Sequence[Option] = ()
         self._search = ""
         self._place = 0
-        self._opens = self._scrolls = False
+        self._opens = self._scrolls = self._focuses = False
 
     def ask(self, options: Sequence[Option]) -> None:
         """Open the dialog with some options."""
@@ -85,7 +86,7 @@ class ListDialog:
     def _draw_search(self) -> Option | None:
         """Lay out the field to type in; return the marked option if Enter was pressed."""
         own("list", STEPS)
-        if imgui.is_window_appearing():
+        if imgui.is_window_appearing() or self._focuses:
             imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(-1.0)
         flags = imgui.InputTextFlags_.enter_returns_true
@@ -100,6 +101,7 @@ class ListDialog:
         for key, step in STEPS.items():
             if pressed(key):
                 self._place, self._scrolls = self._place + step, True
+        self._focuses = entered and not self._found  # Enter took the keyboard away
         self._place = max(min(self._place, len(self._found) - 1), 0)
         return self._found[self._place] if entered and self._found else None
 
@@ -120,9 +122,10 @@ class ListDialog:
         while clipper.step():
             for number in range(clipper.display_start, clipper.display_end):
                 option = self._found[number]
-                label, is_marked = f"{option.name}##{number}", number == self._place
-                if imgui.selectable(label, is_marked, _NO_CURSOR)[0]:
+                if imgui.selectable(f"##{number}", number == self._place, _STAYS_OPEN)[0]:
                     chosen = option
+                imgui.same_line(0.0, 0.0)
+                imgui.text_unformatted(option.name)
                 if option.remark:
                     width = imgui.calc_text_size(option.remark).x
                     room = imgui.get_window_width() - width - imgui.get_font_size()
@@ -131,6 +134,3 @@ class ListDialog:
                     imgui.text_unformatted(option.remark)
                     imgui.pop_style_color()
         return chosen
-
-
-_NO_CURSOR = imgui.SelectableFlags_.no_auto_close_popups

@@ -19,6 +19,8 @@ from .owned_keys import own, pressed
 
 #: What Shift makes of a step.
 FINE = 0.1
+#: A node of at most this scale has no axis in that direction.
+_FLAT = 1e-12
 
 
 class Nudges:
@@ -39,6 +41,8 @@ class Nudges:
         nodes = workspace.document.selection.topmost()
         if not nodes or workspace.tools.chosen == "select" or io.key_ctrl or io.key_alt:
             return
+        if workspace.display.as_rendered:
+            return  # without handles
         # What Tab has marked among the tools is gone through by arrows.
         if not imgui.is_window_focused() or io.nav_visible or workspace.through.node in nodes:
             return
@@ -53,8 +57,9 @@ class Nudges:
         workspace = self._workspace
         tool, pose = workspace.tools.chosen, nodes[-1].world_pose
         axes = axes_towards(workspace.view.rotation(), workspace.view.up)
-        if workspace.tools.is_local:
-            axes = pose[:3, :3] / np.maximum(np.linalg.norm(pose[:3, :3], axis=0), 1e-12)
+        lengths = np.linalg.norm(pose[:3, :3], axis=0)
+        if workspace.tools.is_local and lengths.min() > _FLAT:
+            axes = pose[:3, :3] / lengths
         change = nudged(tool, key, axes, share * workspace.tools.steps[tool], pose[:3, 3])
         label = counted(translated_choice("act", tool), nodes)
         workspace.do(MoveNodes(workspace.scene, nodes, in_world(change), label), drag=self._drag)

@@ -49,10 +49,11 @@ def restore_cursor(workspace: Workspace) -> None:
 
 def focus_panel(workspace: Workspace) -> None:
     """Give the keyboard to the panel that it is to go to, before panels are laid out."""
-    name, workspace.panels.goes_to = workspace.panels.goes_to, ""
+    name = workspace.panels.goes_to
     panel = imgui.internal.find_window_by_name(labelled(name)) if name else None
     if panel is None:
-        return
+        return  # it is laid out for the first time now
+    workspace.panels.goes_to = ""
     imgui.internal.focus_window(panel)
     workspace.panels.goes_to_rows = name == _TREE and not workspace.panels.goes_to_search
     if name not in _OWN_ARROWS:

@@ -50,8 +50,8 @@ class ParentChoice:
 
 def put_below(workspace: Workspace, parent: Node | None) -> None:
     """Put the selected nodes below another, or at the top; they stay where they are."""
-    nodes = workspace.document.selection.topmost()
-    if nodes:
+    selected = workspace.document.selection.topmost()
+    if nodes := [node for node in selected if node.parent is not parent]:
         workspace.do(Reparent(workspace.scene, nodes, parent))
     if parent is not None:
         workspace.hierarchy.set_open(parent, True)

@@ -95,7 +95,9 @@ class TreeCursor:
         """Open a node, or go to the first one below it."""
         row = rows[place]
         if row.is_open:
-            self._go(rows[place + 1].node, rows)
+            # A search shows a node without those below it that it does not find.
+            if place + 1 < len(rows) and rows[place + 1].node.parent is row.node:
+                self._go(rows[place + 1].node, rows)
         elif row.has_children:
             below = imgui.get_io().key_shift
             self._workspace.hierarchy.set_open(row.node, True, below=below)

@@ -20,24 +20,24 @@ class FreeNames:
     """
 
     def __init__(self, taken: Iterable[str]) -> None:
-        self._taken = set(taken)
+        self._taken = set(taken) - {""}
         self._last: dict[str, int] = {}
 
     def free(self, name: str) -> str:
         """Return a name as it is, or with the next number if it is taken; "" stays."""
-        if not name:
-            return name
-        if name not in self._taken:
+        if name in self._taken:
+            name = self._numbered(name)
+        if name:
             self._taken.add(name)
-            return name
+        return name
+
+    def _numbered(self, name: str) -> str:
         stem, count = _parts(name)
         count = max(self._last.get(stem, 1), count) + 1
         while f"{stem} {count}" in self._taken:
             count += 1
         self._last[stem] = count
-        found = f"{stem} {count}"
-        self._taken.add(found)
-        return found
+        return f"{stem} {count}"
 
 
 def _parts(name: str) -> tuple[str, int]:

@@ -12,8 +12,9 @@ from ..new_things.adding import GROUPS
 from ..node_commands import Reparent
 from ..value_commands import SetValues
 from . import clipboard_actions
-from .keyboard.owned_keys import own, pressed
+from .keyboard.owned_keys import ENTER, own, pressed
 from .keyboard.parent_choice import ParentChoice
+from .keyboard.row_in_view import scroll_to_row
 from .keyboard.tree_cursor import TreeCursor
 from .materials import material_actions
 from .panel_layout import begin_panel
@@ -23,7 +24,7 @@ from .workspace import Workspace
 
 _PAYLOAD = "node"
 #: Keys that lead from the search to what it found.
-_TO_ROWS = ("down_arrow", "enter", "keypad_enter")
+_TO_ROWS = ("down_arrow", *ENTER)
 
 
 class HierarchyPanel:
@@ -123,10 +124,7 @@ class HierarchyPanel:
         self._seen = selection.version
         place = None if selection.active is None else rows.place(selection.active)
         if place is not None:
-            height = imgui.get_text_line_height_with_spacing()
-            top, room = imgui.get_scroll_y(), imgui.get_window_height()
-            if not top <= place * height <= top + room - height:
-                imgui.set_scroll_y(place * height - room / 2)
+            scroll_to_row(place)
 
     def _draw_row(self, row: Row, rows) -> None:
         node = row.node

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ....base.language import translated, translated_keys
-from .middle import place_in_middle
+from .middle import place_large
 from .translated_imgui import imgui
 from .workspace import Workspace
 
@@ -66,10 +66,7 @@ class KeysWindow:
         panels = self._workspace.panels
         if not panels.shows_keys:
             return
-        place_in_middle()
-        letter, room = imgui.get_font_size(), imgui.get_main_viewport().size
-        size = min(44 * letter, 0.9 * room.x), min(36 * letter, 0.8 * room.y)
-        imgui.set_next_window_size(size, imgui.Cond_.appearing)
+        place_large(44, 36)
         flags = imgui.WindowFlags_
         how = flags.no_docking | flags.no_saved_settings | flags.no_collapse
         shown, is_open = imgui.begin(_TITLE, True, how)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ....base.language import translated
 from .translated_imgui import imgui
 
 
@@ -18,9 +17,9 @@ def begin_dialog(title: str, when: imgui.Cond_ = imgui.Cond_.appearing) -> bool:
     return bool(imgui.begin_popup_modal(title, None, imgui.WindowFlags_.always_auto_resize)[0])
 
 
-def label_before(text: str, letters: float) -> None:
-    """Lay out a label at the left of a row, and begin the next item a number of letters on."""
-    start = imgui.get_cursor_pos_x()
-    imgui.align_text_to_frame_padding()
-    imgui.text_unformatted(translated(text))
-    imgui.same_line(start + letters * imgui.get_font_size())
+def place_large(wide: float, high: float) -> None:
+    """Place the next window in the middle as it appears, so many letters large if there is room."""
+    place_in_middle()
+    letter, room = imgui.get_font_size(), imgui.get_main_viewport().size
+    size = min(wide * letter, 0.9 * room.x), min(high * letter, 0.8 * room.y)
+    imgui.set_next_window_size(size, imgui.Cond_.appearing)

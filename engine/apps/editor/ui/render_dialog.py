@@ -20,7 +20,8 @@ from ....model.scene.cameras import Camera
 from ....model.scene.nodes import Node
 from ..render_job import RenderJob, Shot
 from .files import Files
-from .middle import begin_dialog, label_before
+from .middle import begin_dialog
+from .properties.fields import label_before
 from .translated_imgui import imgui
 from .translated_imgui import label as labelled
 from .workspace import Workspace

@@ -9,8 +9,8 @@ from typing import get_args
 
 from ....base.language import translated, translated_choice, translated_keys
 from ....choices import LookName, Mode
-from .middle import label_before
 from .overlays import Overlays
+from .properties.fields import label_before
 from .style import scaled
 from .translated_imgui import imgui
 from .view.standard_views import STANDARD_VIEWS

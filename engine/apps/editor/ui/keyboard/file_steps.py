@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from .....base.files.folder_listing import Item
 from ..translated_imgui import imgui
+from .row_in_view import scroll_to_row
 
 
 class FileSteps:
@@ -52,9 +53,5 @@ class FileSteps:
         """Scroll to a file that an arrow key led to, within the list."""
         place = self._place(name) if self._scrolls else None
         self._scrolls = False
-        if place is None:
-            return
-        height = imgui.get_text_line_height_with_spacing()
-        top, room = imgui.get_scroll_y(), imgui.get_window_height()
-        if not top <= place * height <= top + room - 3 * height:
-            imgui.set_scroll_y(place * height - room / 2)
+        if place is not None:
+            scroll_to_row(place, covered=2)

@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from ..middle import place_in_middle
+from ..middle import place_large
 from ..translated_imgui import imgui
 from .owned_keys import STEPS, own, pressed
+from .row_in_view import scroll_to_row
 
 _SIZE = 34, 24  # in heights of the font
 _STAYS_OPEN = imgui.SelectableFlags_.no_auto_close_popups
@@ -66,10 +67,7 @@ class ListDialog:
         if self._opens:
             imgui.open_popup(self._title)
             self._opens = False
-        place_in_middle()
-        letter, room = imgui.get_font_size(), imgui.get_main_viewport().size
-        size = min(_SIZE[0] * letter, 0.9 * room.x), min(_SIZE[1] * letter, 0.8 * room.y)
-        imgui.set_next_window_size(size, imgui.Cond_.appearing)
+        place_large(*_SIZE)
         if not imgui.begin_popup_modal(self._title, None, imgui.WindowFlags_.no_saved_settings)[0]:
             return
         chosen = self._draw_search()
@@ -108,17 +106,14 @@ class ListDialog:
     def _draw_options(self) -> Option | None:
         """Lay out the visible options; return the one that was clicked."""
         chosen = None
-        height = imgui.get_text_line_height_with_spacing()
         faded = imgui.get_style_color_vec4(imgui.Col_.text_disabled)
         if self._scrolls:
             self._scrolls = False
-            top, room = imgui.get_scroll_y(), imgui.get_window_height()
-            if not top <= self._place * height <= top + room - height:
-                imgui.set_scroll_y(self._place * height - room / 2)
+            scroll_to_row(self._place)
         if not self._found:
             imgui.text_disabled("nothing found")
         clipper = imgui.ListClipper()
-        clipper.begin(len(self._found), height)
+        clipper.begin(len(self._found), imgui.get_text_line_height_with_spacing())
         while clipper.step():
             for number in range(clipper.display_start, clipper.display_end):
                 option = self._found[number]

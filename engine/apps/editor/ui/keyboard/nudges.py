@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-import numpy as np
-
+from .....base import linalg
 from .....base.language import translated_choice
 from ...gizmo import NUDGES, axes_towards, nudged
 from ...node_commands import MoveNodes, counted, in_world
@@ -57,7 +56,7 @@ class Nudges:
         workspace = self._workspace
         tool, pose = workspace.tools.chosen, nodes[-1].world_pose
         axes = axes_towards(workspace.view.rotation(), workspace.view.up)
-        lengths = np.linalg.norm(pose[:3, :3], axis=0)
+        lengths = linalg.length(pose[:3, :3].T)
         if workspace.tools.is_local and lengths.min() > _FLAT:
             axes = pose[:3, :3] / lengths
         change = nudged(tool, key, axes, share * workspace.tools.steps[tool], pose[:3, 3])

@@ -8,6 +8,7 @@ from ..translated_imgui import imgui
 
 #: How many rows each key goes on in a list.
 STEPS = {"up_arrow": -1, "down_arrow": 1, "page_up": -10, "page_down": 10}
+ENTER = ("enter", "keypad_enter")
 
 
 def own(owner: str, keys: Iterable[str]) -> None:

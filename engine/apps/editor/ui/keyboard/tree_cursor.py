@@ -9,10 +9,9 @@ from .....model.scene.nodes import Node
 from ...hierarchy import Rows
 from ..translated_imgui import imgui
 from ..workspace import Workspace
-from .owned_keys import STEPS, own, pressed
+from .owned_keys import ENTER, STEPS, own, pressed
 
 _SIDEWAYS = ("left_arrow", "right_arrow")
-_ENTER = ("enter", "keypad_enter")
 
 
 class TreeCursor:
@@ -42,7 +41,7 @@ class TreeCursor:
         io = imgui.get_io()
         if not imgui.is_window_focused() or io.want_text_input or io.key_ctrl or io.key_alt:
             return
-        own("tree", (*STEPS, *_SIDEWAYS, *_ENTER))
+        own("tree", (*STEPS, *_SIDEWAYS, *ENTER))
         imgui.set_nav_cursor_visible(False)  # Space plays, and acts on no row
         for key, step in STEPS.items():
             if pressed(key):
@@ -55,7 +54,7 @@ class TreeCursor:
             self._fold(rows, place)
         if pressed("right_arrow"):
             self._unfold(rows, place)
-        if any(pressed(key, again=False) for key in _ENTER):
+        if any(pressed(key, again=False) for key in ENTER):
             self._workspace.go_to("Properties")
 
     def _go(self, node: Node, rows: Rows) -> None:

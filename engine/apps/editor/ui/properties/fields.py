@@ -306,6 +306,14 @@ class Fields:
         return now, not all(same(getattr(thing, name), now) for thing in things)
 
 
+def label_before(text: str, letters: float) -> None:
+    """Lay out a label at the left of a row, and begin the next item a number of letters on."""
+    start = imgui.get_cursor_pos_x()
+    imgui.align_text_to_frame_padding()
+    imgui.text_unformatted(translated(text))
+    imgui.same_line(start + letters * imgui.get_font_size())
+
+
 def rows_of(things: Sequence[Any], numbers_of: Callable[[Any], list[Any]]) -> list[list[Any]]:
     """Return the numbers of each thing; of too many those of the last, after what differs."""
     if len(things) <= MOST_COMPARED:

@@ -93,15 +93,22 @@ def test_on_windows_each_folder_of_tests_has_a_process_of_its_own(source_tree, c
     statuses = {"files": 1, "notebook": script["NO_TESTS"]}
     asked = []
 
-    def test(folder):
+    def test(folder, write):
         asked.append(folder.name)
+        write(f"{folder.name} begins\n")
+        write(f"{folder.name} is done\n")
         return script["Ended"](statuses.get(folder.name, 0), f"{folder.name} is done")
 
     windows = SimpleNamespace(test=test)
     assert script["whole"](windows) == 1
-    assert {"batch", "editor", "files", "notebook"} < {*asked} and asked == sorted(asked)
+    assert {"batch", "editor", "files", "notebook"} < {*asked}
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == len(asked) and lines[0].endswith(f"{asked[0]} is done")
+    printed, table = lines[: 2 * len(asked)], lines[2 * len(asked) :]
+    for name in asked:
+        first = printed.index(f"{name} begins")
+        assert printed[first + 1] == f"{name} is done"
+    assert [line.split()[0] for line in table] == sorted(asked)
+    assert all(line.endswith(f"{line.split()[0]} is done") for line in table)
     del statuses["files"]
     assert script["whole"](windows) == 0
 

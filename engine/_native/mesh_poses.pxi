@@ -4,6 +4,10 @@
 # Out: handles of posed meshes. Each pose has two, and writes into the one that nobody else holds, so that what
 #      a thread is drawing stays as it is.
 
+cdef extern from "Python.h":
+    Py_ssize_t references "Py_REFCNT"(PyObject *held)  # without a reference of the call's own
+
+
 cdef class NativeRest:
     """What moves the vertices of a mesh. It borrows the arrays given, which must never change."""
 
@@ -173,7 +177,7 @@ cdef class NativePose:
 
     cdef int begin(self, e3d_pose_job *job) except -1:
         """Say what is to be posed into a handle that nobody else holds."""
-        if self.spare is None or (<PyObject *>self.spare).ob_refcnt > 1:
+        if self.spare is None or references(<PyObject *>self.spare) > 1:
             self.spare = self.rest.new_posed(self.face_normals)
         if self.edges is not None:
             self.spare.set_edges(self.edges)

@@ -4,7 +4,7 @@
     python docs/pictures/make.py models        only some
     python docs/pictures/make.py --check       draw, and compare with the files, pixel for pixel
 
-In: the models of engine3d.data, the programs of docs/gallery.md. Out: one WebP a picture in this
+In: the models of data/models, the programs of docs/gallery.md. Out: one WebP a picture in this
 folder: lossless, or small, with the digest of what was drawn in drawn.json; an SVG for each drawing
 of vectors.py. The same pixels and texts come out on every machine and backend; a test compares
 them.
@@ -17,12 +17,12 @@ import math
 import sys
 from dataclasses import replace
 from functools import partial
-from importlib.resources import files
 from pathlib import Path
 
 import gallery
 import numpy as np
 from digests import Digests
+from places import MODELS
 from vectors import SIZE, VECTORS
 from windows import WINDOWS
 
@@ -41,7 +41,6 @@ from engine3d.stage.viewed_scene import ViewedScene
 from engine3d.stage.views.walking import controller
 
 FOLDER = Path(__file__).resolve().parent
-MODELS = files("engine3d.data") / "models"
 SAMPLES = 16
 PAPER = (30, 33, 40)
 #: One sample of the scene as it is.

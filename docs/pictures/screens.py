@@ -31,7 +31,8 @@ from unittest.mock import patch
 
 import numpy as np
 from digests import Digests
-from windows import MODELS, Glass, in_a_viewer
+from places import MODELS
+from windows import Glass, in_a_viewer
 
 from engine3d.apps.learn.course_session import Session
 from engine3d.apps.learn.learn_window import LearnWindow

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from importlib.resources import files
+
+from places import MODELS
 
 import engine3d as e3d
 
-MODELS = files("engine3d.data") / "models"
 SIZE = (960, 540)
 
 

@@ -1,15 +1,15 @@
 """Draws what the viewer's window shows, without a screen.
 
-In: the viewer, and models of engine3d.data. Out: what the viewer presents to a window, with its
+In: the viewer, and models of data/models. Out: what the viewer presents to a window, with its
 bar, lists and menus. screens.py has whole windows of all programs.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.resources import files
 
 import numpy as np
+from places import MODELS
 
 from engine3d.apps import events
 from engine3d.apps.cli.options.picture_options import WINDOW
@@ -21,7 +21,6 @@ from engine3d.apps.viewer.sampling import AT_REST
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.base.language import speaking
 
-MODELS = files("engine3d.data") / "models"
 #: Of the viewer's windows that pages show.
 SHOWN_SIZE = (1280, 640)
 

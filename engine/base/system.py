@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,9 @@ _TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK, 0)
 # errors of file systems that cannot sync
 _NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)
 _SHORT = 0.5  # seconds
+# Seconds for which Windows refuses to replace a file that a scanner of viruses or another reader
+# closes soon.
+_MOMENT = 1.0 if os.name == "nt" else 0.0
 
 #: Flags of `os.open`: read bytes, and do not pass the handle to child processes.
 READ = os.O_RDONLY | _BINARY | _OWN
@@ -129,6 +133,18 @@ def sync_folder(path: str | None) -> None:
             raise
     finally:
         os.close(handle)
+
+
+def replace_file(path: str, target: str) -> None:
+    """Rename a file to another's name; on Windows, wait a moment for those that read the other."""
+    deadline = time.monotonic() + _MOMENT
+    while True:
+        try:
+            return os.replace(path, target)
+        except PermissionError:
+            if time.monotonic() >= deadline:
+                raise
+        time.sleep(0.01)
 
 
 def set_mode(handle: int, path: str, mode: int) -> None:

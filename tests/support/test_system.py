@@ -47,3 +47,28 @@ def test_names_of_any_bytes(name):
 def test_ending_signals_and_processors():
     assert "SIGTERM" in {number.name for number in system.ending_signals()}
     assert 1 <= system.usable_processors() <= os.cpu_count()
+
+
+@pytest.mark.parametrize("moment, refusals, is_replaced", [(30.0, 2, True), (0.0, 1, False)])
+def test_a_file_is_replaced_once_its_readers_are_gone(
+    tmp_path, monkeypatch, moment, refusals, is_replaced
+):
+    (tmp_path / "new").write_text("new")
+    (tmp_path / "old").write_text("old")
+    replace, asked = os.replace, []
+
+    def replaced(*paths):
+        asked.append(paths)
+        if len(asked) <= refusals:
+            raise PermissionError(errno.EACCES, "another program reads it")
+        replace(*paths)
+
+    monkeypatch.setattr(os, "replace", replaced)
+    monkeypatch.setattr(system, "_MOMENT", moment)
+    if is_replaced:
+        system.replace_file(tmp_path / "new", tmp_path / "old")
+    else:
+        with pytest.raises(PermissionError):
+            system.replace_file(tmp_path / "new", tmp_path / "old")
+    assert (tmp_path / "old").read_text() == ("new" if is_replaced else "old")
+    assert len(asked) == 1 + (refusals if is_replaced else 0)

@@ -13,7 +13,6 @@ import json
 import math
 import re
 import traceback
-import warnings
 from collections.abc import Callable
 from typing import Annotated, Any
 
@@ -24,7 +23,8 @@ from pydantic import ValidationError
 
 from ...base.near_words import meant
 from ...base.numbers import shown
-from ...errors import Engine3DError, Engine3DWarning, printable
+from ...base.warning_scopes import gathered
+from ...errors import Engine3DError, printable
 from ...version import __version__
 from .server_limits import Limits
 from .session import Session
@@ -126,8 +126,7 @@ def _published(tool: Tool, session: Session) -> AgentTool:
 def _result(call: Callable[[], Answer], limits: Limits) -> CallToolResult:
     """Return what a tool answers, or its error."""
     try:
-        with warnings.catch_warnings(record=True) as caught, limits.in_time():
-            warnings.simplefilter("always", Engine3DWarning)
+        with gathered() as said, limits.in_time():
             answer = call()
     except Engine3DError as error:
         return _failed(limits.with_short_names(str(error)))
@@ -139,11 +138,7 @@ def _result(call: Callable[[], Answer], limits: Limits) -> CallToolResult:
         traceback.print_exc()  # on standard error, for a report of the fault
         return _failed(f"a fault of engine3d: {type(error).__name__}: {printable(str(error))}")
     record = dict(answer.record)
-    told = [
-        limits.with_short_names(printable(str(w.message)))
-        for w in caught
-        if issubclass(w.category, Engine3DWarning)
-    ]
+    told = [limits.with_short_names(printable(text)) for text in said]
     known = [limits.with_short_names(line) for line in record.get("warnings", [])]
     fresh = [line for line in dict.fromkeys(told) if not any(line.endswith(k) for k in known)]
     if "warnings" in record:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import threading
 import time
-import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,7 +16,8 @@ from numpy.typing import NDArray
 
 from ...base.plugins.discovery import leaving_out
 from ...base.plugins.participants import participants
-from ...errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from ...base.warning_scopes import gathered
+from ...errors import Engine3DError, InvalidArgumentError
 from ...io.reading.linked_files import found_files
 from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
@@ -147,8 +147,7 @@ class Drawer:
     def outcome(self, task: Task, how: How) -> Outcome:
         """Draw a picture, unless it is done; return its outcome."""
         start, writer = time.perf_counter(), writer_of(task, how.writer)
-        with warnings.catch_warnings(record=True) as said:
-            warnings.simplefilter("always", Engine3DWarning)
+        with gathered() as texts:
             error, drawn = None, False
             inputs = Inputs(task.folder)
             try:
@@ -158,7 +157,6 @@ class Drawer:
                         drawn = True
             except Exception as problem:  # a fault of one picture must not affect others
                 error = _told(problem)
-        texts = (str(one.message) for one in said if issubclass(one.category, Engine3DWarning))
         seconds = time.perf_counter() - start
         return Outcome(task.index, error, drawn, seconds, tuple(dict.fromkeys(texts)))
 

@@ -9,18 +9,21 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
+import threading
 import traceback
 from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any, NamedTuple
 
 from ...base.numbers import shown
+from ...base.system import after_fork
 from ...errors import Engine3DError, InvalidArgumentError, located
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ..datasets.generator import Generator
 from .bytes_of import bytes_of
 from .file_digests import digest_of
+from .imports_beside import imports_beside
 
 
 class ScriptError(Engine3DError, RuntimeError):
@@ -57,19 +60,35 @@ class Loaded(NamedTuple):
     Attributes
     ----------
     module : ModuleType
-    beside : dict of str to str
-        Names of the modules of its folder that it imported, and their files.
     digests : dict of str to str
-        Hashes of all these files and its own, by path.
+        Hashes of its file and of those that it imports from its folder, by path.
     """
 
     module: ModuleType
-    beside: dict[str, str]
     digests: dict[str, str | None]
 
 
+class _Turn:
+    """Scripts run one after the other: what they import, and from where, belongs to the process."""
+
+    def __init__(self) -> None:
+        self.renew()
+
+    def renew(self) -> None:
+        """Make a lock that nobody holds, such as in a process forked from within a script."""
+        self.lock = threading.RLock()
+
+
+_turn = _Turn()
+after_fork(_turn.renew)
+
+
+# The hashes of the files beside scripts, as they were when the process imported them.
+_imported: dict[str, str | None] = {}
+
+
 class Scripts:
-    """The scripts that a process has run, each once until its files change."""
+    """The scripts that a thread has run, each once until its files change."""
 
     def __init__(self) -> None:
         self._loaded: dict[str, Loaded] = {}
@@ -90,13 +109,14 @@ class Scripts:
         ScriptError
         """
         path = os.path.realpath(path)
-        loaded = self._fresh(path)
-        for file in loaded.digests:
-            note(file)
-        build = getattr(loaded.module, function, None)
-        if not callable(build):
-            raise ScriptError(located(f"there is no function {function}", path))
-        result = _guarded(path, lambda: build(scene, generator, **arguments))
+        with _turn.lock:
+            loaded = self._fresh(path)
+            for file in loaded.digests:
+                note(file)
+            build = getattr(loaded.module, function, None)
+            if not callable(build):
+                raise ScriptError(located(f"there is no function {function}", path))
+            result = _guarded(path, lambda: build(scene, generator, **arguments))
         try:
             return _said(result)
         except InvalidArgumentError as error:
@@ -108,25 +128,33 @@ class Scripts:
         if known is not None:
             if all(digest_of(file) == digest for file, digest in known.digests.items()):
                 return known
-            for name in known.beside:
-                sys.modules.pop(name, None)
         loaded = self._loaded[path] = _guarded(path, lambda: _run(path))
         return loaded
 
 
 def _run(path: str) -> Loaded:
     """Run a script as a module."""
+    digests = {path: digest_of(path)}
+    _forget_changed(imports_beside(path))
     folder, before = os.path.dirname(path) + os.sep, set(sys.modules)
-    own = digest_of(path)
     spec = importlib.util.spec_from_file_location(f"engine3d_script_{abs(hash(path))}", path)
     if spec is None or spec.loader is None:
         raise ScriptError(located("its name does not end in .py", path))
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    new = {name: getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before}
-    beside = {name: file for name, file in new.items() if file and file.startswith(folder)}
-    files = sorted(beside.values())
-    return Loaded(module, beside, {path: own, **{file: digest_of(file) for file in files}})
+    # Those too that the source does not name.
+    new = [getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before]
+    beside = {file for file in new if file and file.startswith(folder)}
+    beside.update(imports_beside(path).values())
+    _imported.update({file: digest_of(file) for file in beside})
+    return Loaded(module, digests | {file: _imported[file] for file in sorted(beside)})
+
+
+def _forget_changed(modules: dict[str, str]) -> None:
+    """Have modules imported anew if the file of one has changed since it was."""
+    if any(_imported.get(file, digest_of(file)) != digest_of(file) for file in modules.values()):
+        for name in modules:
+            sys.modules.pop(name, None)
 
 
 def _guarded(path: str, do: Callable[[], Any]) -> Any:

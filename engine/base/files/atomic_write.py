@@ -24,7 +24,7 @@ from typing import Any, BinaryIO
 
 from ...errors import FileAccessError, InvalidArgumentError
 from ..numbers import shown
-from ..system import AT_ONCE, READ_WRITE, WRITE, set_mode, sync_folder
+from ..system import AT_ONCE, READ_WRITE, WRITE, replace_file, set_mode, sync_folder
 
 #: Temporary files left by a process that was killed while writing.
 LEFT_BEHIND = re.compile(r"\.(?P<name>.*)\.[0-9a-f]{16}\.part", re.DOTALL)
@@ -195,7 +195,7 @@ class _Part:
 
     def appear(self) -> None:
         if self._temporary is not None:
-            os.replace(self._temporary, self._target)
+            replace_file(self._temporary, self._target)
             self._temporary = None
             self.folder = os.path.dirname(self._target)
 

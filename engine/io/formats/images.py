@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import io
 import re
-import warnings
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
@@ -19,6 +18,7 @@ import numpy as np
 
 from ..._native.loaders import frozen
 from ...base.memory import NEEDS_MORE, is_lack_of_memory
+from ...base.warning_scopes import ignored_of
 from ...errors import FileFormatError
 from ...model.materials.textures import MAX_SIDE
 from ..reading.reader_registry import Reader
@@ -125,8 +125,7 @@ def decoding_fault(error: Exception, path: str) -> FileFormatError:
 @contextlib.contextmanager
 def quiet_pillow() -> Iterator[None]:
     """Silence Pillow's warnings about ignored content, and about sizes that are allowed here."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with ignored_of(r"PIL(\.|$)"):
         yield
 
 

@@ -8,7 +8,6 @@ image gives a warning, and no texture. Images are decoded in parallel.
 from __future__ import annotations
 
 import os
-import warnings as python_warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -71,8 +70,7 @@ class GltfTextures:
         images = [image for image in wanted if image is not None and image not in self._images]
         if not images:
             return
-        with python_warnings.catch_warnings():
-            results = side_by_side(self._decoded, images, _threads(images))
+        results = side_by_side(self._decoded, images, _threads(images))
         for image, result in zip(images, results, strict=True):
             if isinstance(result, str):
                 self._file.warnings.add(f"images[{image}] is left out: {result}")

@@ -1,7 +1,7 @@
 """Each lesson runs by itself and draws the picture of its page, whatever the size."""
 
-import re
 import os
+import re
 import runpy
 import shutil
 import subprocess

@@ -194,6 +194,8 @@ class _short_warnings:
         self._catcher = warnings.catch_warnings()
         self._catcher.__enter__()
         warnings.simplefilter("always", Engine3DWarning)
+        # A Python without this lock takes it for engine3d. Who runs a command has nothing to do.
+        warnings.filterwarnings("ignore", "The global interpreter lock", RuntimeWarning)
         warnings.showwarning = _show_warning
 
     def __exit__(self, *exception):

@@ -15,6 +15,10 @@ needs_full_device = pytest.mark.skipif(
     os.name == "nt" or not os.path.exists("/dev/full"), reason="there is no /dev/full"
 )
 
+needs_compiler = pytest.mark.skipif(
+    os.name == "nt", reason="no compiler of Windows has built it: its wheels are built on Linux"
+)
+
 
 def skip_where_files_cannot_be_made():
     """Let `os.symlink` and `os.mkfifo` skip the test where there are no such files.

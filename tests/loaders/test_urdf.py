@@ -1,6 +1,7 @@
 """Robots of URDF: where links are, what they look like, which files they find, what is refused."""
 
 import math
+import os
 import re
 import struct
 
@@ -229,7 +230,8 @@ def test_packages_are_found_around_the_robot_and_in_the_path(tmp_path, monkeypat
     write(tmp_path / "ws" / "hand" / "b.stl")
     write(tmp_path / "ws" / "hand" / "package.xml", b"<package/>")
     write(tmp_path / "ros" / "far" / "c.stl")
-    monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path / 'none'}:{tmp_path / 'ros'}")
+    folders = [str(tmp_path / name) for name in ("none", "ros")]
+    monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join(folders))
     for name in (
         "package://arm_description/meshes/a.stl",
         "model://arm_description/meshes/a.stl",

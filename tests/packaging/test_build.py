@@ -8,6 +8,9 @@ import subprocess
 import sys
 
 import pytest
+from missing_here import needs_compiler
+
+pytestmark = needs_compiler
 
 # The core is two numbers, one of them behind an .inl file.
 CORE = """

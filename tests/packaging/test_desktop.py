@@ -73,6 +73,7 @@ def test_the_manual_page_names_every_option_of_every_command(desktop):
                 assert rf"\fB{action.option_strings[-1]}\fR" in section
 
 
+@pytest.mark.skipif(os.name == "nt", reason="desktops of Windows have no thumbnailers of this kind")
 def test_the_thumbnailers_command_draws_a_thumbnail(desktop, tmp_path):
     entry = configparser.RawConfigParser()
     entry.read(desktop / "engine3d.thumbnailer", "utf-8")

@@ -7,8 +7,9 @@ import zipfile
 from pathlib import PurePosixPath
 
 import pytest
+from missing_here import needs_compiler
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, needs_compiler]
 
 MAX_WHEEL_BYTES = 6_200_000
 SOURCE_FOLDERS = ["benchmarks", "csrc", "data", "docs", "engine", "lessons", "tests"]

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import signal
+import sys
 import tempfile
 
 import pytest
@@ -15,6 +16,10 @@ needs_full_device = pytest.mark.skipif(
     os.name == "nt" or not os.path.exists("/dev/full"), reason="there is no /dev/full"
 )
 
+# Elsewhere SDL itself asks for one.
+needs_no_screen = pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="only Linux tells of a screen before a window"
+)
 needs_compiler = pytest.mark.skipif(
     os.name == "nt", reason="no compiler of Windows has built it: its wheels are built on Linux"
 )

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from missing_here import needs_no_screen
 from motion.moving_model import flag
 
 import engine3d as e3d
@@ -199,6 +200,7 @@ def test_what_cannot_be_shown_is_told(thing, options, said):
         e3d.show(thing, **options)
 
 
+@needs_no_screen
 @pytest.mark.parametrize("thing", [e3d.box(), np.zeros((4, 4), np.uint8)], ids=["mesh", "picture"])
 def test_without_a_screen_one_error_says_so(monkeypatch, thing):
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):

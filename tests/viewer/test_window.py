@@ -8,6 +8,7 @@ import time
 
 import numpy as np
 import pytest
+from missing_here import needs_no_screen
 
 import engine3d as e3d
 from engine3d import events
@@ -275,6 +276,7 @@ def test_closing_twice_and_opening_again(monkeypatch):
         window.close()
 
 
+@needs_no_screen
 def test_without_a_screen_the_error_says_so(monkeypatch):
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
         monkeypatch.delenv(name, raising=False)
@@ -284,6 +286,7 @@ def test_without_a_screen_the_error_says_so(monkeypatch):
         Window((64, 64), "nowhere")
 
 
+@needs_no_screen
 def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
     monkeypatch.setenv("DISPLAY", ":9731")
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)

@@ -1,5 +1,7 @@
 """What a format holds comes back; what it does not hold is named; what others wrote stays."""
 
+import os
+import re
 import warnings
 
 import numpy as np
@@ -232,10 +234,13 @@ FILES += [
     "-s 1",
     "\\",
 ]
+NOT_ON_WINDOWS = re.compile(r'[<>:"/\\|?*\x00-\x1f\udc80-\udcff]')
 
 
 @pytest.mark.parametrize("stem", FILES, ids=ascii)
 def test_odd_names_of_files(tmp_path, stem):
+    if os.name == "nt" and NOT_ON_WINDOWS.search(stem):
+        pytest.skip("no file of Windows has such a name")
     mesh = polygon(materials=[red(texture=image(1))], uvs=np.zeros((4, 2)))
     mesh.save(tmp_path / f"{stem}.obj")
     again = loaded(tmp_path / f"{stem}.obj")

@@ -10,7 +10,15 @@ from PIL import Image
 
 import engine3d as e3d
 
-mcp = pytest.importorskip("mcp", exc_type=ImportError, reason="needs engine3d[mcp]")
+try:
+    import mcp
+except ImportError:
+    mcp = None
+
+
+def pytest_collect_file():
+    if mcp is None:
+        pytest.skip("needs engine3d[mcp]")
 
 
 class Agent:

@@ -24,8 +24,8 @@ _TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK, 0)
 # errors of file systems that cannot sync
 _NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)
 _SHORT = 0.5  # seconds
-# Seconds for which Windows refuses to replace a file that a scanner of viruses or another reader
-# closes soon.
+# Seconds to try again where Windows refuses to replace a file: another program, such as a scanner
+# of viruses, may have it open for a moment.
 _MOMENT = 1.0 if os.name == "nt" else 0.0
 
 #: Flags of `os.open`: read bytes, and do not pass the handle to child processes.

@@ -73,6 +73,62 @@ def test_a_script_that_comes_later_sees_what_its_module_is_now(tmp_path):
     assert old != new == same
 
 
+def test_a_module_of_a_module_changes_for_all(tmp_path):
+    """One script imports it itself, another through a module that keeps what it took."""
+    write(
+        tmp_path,
+        deep_="COLOR = (9, 8, 7)\n",
+        near_="from deep_ import COLOR\n",
+        a=USES.format("near_"),
+        b=USES.format("deep_"),
+    )
+    tasks, out = [task(tmp_path, name) for name in "ab"], tmp_path / "out"
+    run(tasks, out, jobs=1)
+    write(tmp_path, deep_="COLOR = (90, 80, 70)\n")
+    for one in (tasks[1], tasks[0]):
+        again = run([one], tmp_path / f"new_{one.name}", jobs=1)
+        assert again.failures == []
+    old, new, same = (
+        (tmp_path / path).read_bytes() for path in ("out/a.png", "new_a/a.png", "new_b/b.png")
+    )
+    assert old != new == same
+
+
+HIDDEN = USES.replace("import {0}\n", "import importlib\n{0} = importlib.import_module('{0}')\n")
+
+
+@pytest.mark.parametrize(
+    "uses, place",
+    [
+        (HIDDEN.format("told_"), "told_.py"),
+        (USES.replace("import {0}", "from space_ import {0}").format("held_"), "space_/held_.py"),
+    ],
+    ids=["by importlib", "in a folder without __init__"],
+)
+def test_modules_of_all_kinds_are_imported_anew(tmp_path, uses, place):
+    path = tmp_path / place
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("COLOR = (9, 8, 7)\n")
+    write(tmp_path, a=uses, b=uses)
+    tasks, out = [task(tmp_path, name) for name in "ab"], tmp_path / "out"
+    first = run(tasks, out, jobs=1)
+    assert all(any(one.endswith(place) for one in inputs_of(out, name)) for name in "ab")
+    for number in range(2):  # the second change is seen, too
+        path.write_text(f"COLOR = (90, {100 * number + 80}, 70)\n")
+        again = run(tasks, out, jobs=1, resume=True)
+        assert (again.drawn, again.failures) == (2, []) and again.hash != first.hash
+        first = again
+
+
+def test_a_script_that_failed_sees_its_module_mended(tmp_path):
+    write(
+        tmp_path, lacks_="", a=USES.format("lacks_").replace("def build", "lacks_.COLOR\ndef build")
+    )
+    assert len(run([task(tmp_path, "a")], tmp_path / "out", jobs=1).failures) == 1
+    write(tmp_path, lacks_="COLOR = (9, 8, 7)\n")
+    assert run([task(tmp_path, "a")], tmp_path / "out", jobs=1).failures == []
+
+
 def test_threads_run_scripts_as_one_thread_does(tmp_path, manifest):
     """Each round has scripts of its own, which the threads load at once."""
     for turn in range(15):

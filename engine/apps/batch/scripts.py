@@ -83,8 +83,8 @@ _turn = _Turn()
 after_fork(_turn.renew)
 
 
-# The hashes of the files beside scripts, as they were when the process imported them.
-_imported: dict[str, str | None] = {}
+# The names of the modules that scripts imported from their folders, by folder.
+_imported: dict[str, set[str]] = {}
 
 
 class Scripts:
@@ -128,38 +128,45 @@ class Scripts:
         if known is not None:
             if all(digest_of(file) == digest for file, digest in known.digests.items()):
                 return known
+        # It imports its modules anew: they, or what they import, may have changed.
+        for name in _imported.pop(_folder_of(path), ()):
+            sys.modules.pop(name, None)
         loaded = self._loaded[path] = _guarded(path, lambda: _run(path))
         return loaded
 
 
 def _run(path: str) -> Loaded:
     """Run a script as a module."""
-    digests = {path: digest_of(path)}
-    _forget_changed(imports_beside(path))
-    folder, before = os.path.dirname(path) + os.sep, set(sys.modules)
+    own, before = digest_of(path), set(sys.modules)
     spec = importlib.util.spec_from_file_location(f"engine3d_script_{abs(hash(path))}", path)
     if spec is None or spec.loader is None:
         raise ScriptError(located("its name does not end in .py", path))
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    # Those too that the source does not name.
-    new = [getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before]
-    beside = {file for file in new if file and file.startswith(folder)}
+    # The source names also what the program imported before, but not what `importlib` is told.
+    files = {getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before}
+    beside = {file for file in files if file and file.startswith(_folder_of(path))}
     beside.update(imports_beside(path).values())
-    _imported.update({file: digest_of(file) for file in beside})
-    return Loaded(module, digests | {file: _imported[file] for file in sorted(beside)})
+    return Loaded(module, {path: own, **{file: digest_of(file) for file in sorted(beside)}})
 
 
-def _forget_changed(modules: dict[str, str]) -> None:
-    """Have modules imported anew if the file of one has changed since it was."""
-    if any(_imported.get(file, digest_of(file)) != digest_of(file) for file in modules.values()):
-        for name in modules:
-            sys.modules.pop(name, None)
+def _folder_of(path: str) -> str:
+    """Return the folder of a file, as the paths of what is in it begin."""
+    return os.path.dirname(path) + os.sep
+
+
+def _note_imports(folder: str, before: set[str]) -> None:
+    """Note the modules of a folder that have been imported since."""
+    for name in set(sys.modules) - before:
+        module = sys.modules[name]
+        places = [getattr(module, "__file__", None), *(getattr(module, "__path__", None) or ())]
+        if any(place and str(place).startswith(folder) for place in places):
+            _imported.setdefault(folder, set()).add(name)
 
 
 def _guarded(path: str, do: Callable[[], Any]) -> Any:
     """Let a script import from its folder, and name file and line in its errors."""
-    folder = os.path.dirname(path)
+    folder, before = os.path.dirname(path), set(sys.modules)
     sys.path.insert(0, folder)
     # Python reuses compiled code for files of equal size and second: a change could be missed.
     writes, sys.dont_write_bytecode = sys.dont_write_bytecode, True
@@ -181,6 +188,7 @@ def _guarded(path: str, do: Callable[[], Any]) -> Any:
     finally:
         sys.dont_write_bytecode = writes
         sys.path.remove(folder)
+        _note_imports(_folder_of(path), before)
 
 
 def _said(result: Any) -> Said:

@@ -194,7 +194,7 @@ class _short_warnings:
         self._catcher = warnings.catch_warnings()
         self._catcher.__enter__()
         warnings.simplefilter("always", Engine3DWarning)
-        # A Python without this lock takes it for engine3d. Who runs a command has nothing to do.
+        # A Python without the lock takes it back for engine3d: the user has nothing to do.
         warnings.filterwarnings("ignore", "The global interpreter lock", RuntimeWarning)
         warnings.showwarning = _show_warning
 

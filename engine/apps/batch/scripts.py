@@ -144,8 +144,7 @@ def _run(path: str) -> Loaded:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     # The source names also what the program imported before, but not what `importlib` is told.
-    files = {getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before}
-    beside = {file for file in files if file and file.startswith(_folder_of(path))}
+    beside = {file for file in _imported_since(before, _folder_of(path)).values() if file}
     beside.update(imports_beside(path).values())
     return Loaded(module, {path: own, **{file: digest_of(file) for file in sorted(beside)}})
 
@@ -155,13 +154,15 @@ def _folder_of(path: str) -> str:
     return os.path.dirname(path) + os.sep
 
 
-def _note_imports(folder: str, before: set[str]) -> None:
-    """Note the modules of a folder that have been imported since."""
+def _imported_since(before: set[str], folder: str) -> dict[str, str | None]:
+    """Return the modules of a folder that are new, by name: files, None of packages without one."""
+    new = {}
     for name in set(sys.modules) - before:
-        module = sys.modules[name]
-        places = [getattr(module, "__file__", None), *(getattr(module, "__path__", None) or ())]
-        if any(place and str(place).startswith(folder) for place in places):
-            _imported.setdefault(folder, set()).add(name)
+        file = getattr(sys.modules[name], "__file__", None)
+        places = [file] if file else getattr(sys.modules[name], "__path__", None) or ()
+        if any(str(place).startswith(folder) for place in places):
+            new[name] = file
+    return new
 
 
 def _guarded(path: str, do: Callable[[], Any]) -> Any:
@@ -188,7 +189,8 @@ def _guarded(path: str, do: Callable[[], Any]) -> Any:
     finally:
         sys.dont_write_bytecode = writes
         sys.path.remove(folder)
-        _note_imports(_folder_of(path), before)
+        new = _imported_since(before, _folder_of(path))
+        _imported.setdefault(_folder_of(path), set()).update(new)
 
 
 def _said(result: Any) -> Said:

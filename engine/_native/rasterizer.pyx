@@ -26,7 +26,12 @@ from e3d_apertures cimport *
 
 from .scene_graph cimport NativeTree
 
-from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError
+from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError, RendererBusyError
+
+FORKED = (
+    "this process was forked while the renderer drew, and has no more than half of that frame: "
+    "make another Renderer here"
+)
 
 
 cdef dict values_of(e3d_option option):
@@ -355,10 +360,16 @@ cdef class NativeRenderer:
         """Use the handle no more, nor free it: a fork may have caught a frame in mid-write."""
         self.handle = NULL
 
+    cdef int check_whole(self) except -1:
+        """Raise if the renderer was abandoned."""
+        if self.handle == NULL:
+            raise RendererBusyError(FORKED)
+        return 0
+
     def prepare(self, int width, int height, int planes):
         """Have memory ready that frames of so many samples may need, in as many planes."""
         cdef e3d_status status
-        require(self.handle != NULL, "the renderer was abandoned")
+        self.check_whole()
         with nogil:
             status = e3d_renderer_prepare(self.handle, width, height, planes)
         check(status)
@@ -440,8 +451,7 @@ cdef class NativeRenderer:
         frame.shadow_map_count = draw_list.shadow_map_count
         frame.casters = draw_list.casters_now()
         fill_targets(&outputs, targets, width, height)
-        if not self.draw(&frame, &outputs, &drawn.stats):
-            return drawn
+        self.draw(&frame, &outputs, &drawn.stats)
         drawn.totals = draw_list.totals
         drawn.draws = draw_list.placed.calls
         drawn.draws_unbatched = draw_list.placed.node_calls
@@ -451,21 +461,20 @@ cdef class NativeRenderer:
         drawn.lights = draw_list.light_count
         return drawn
 
-    cdef bint draw(self, const e3d_frame *frame, const e3d_targets *outputs, e3d_stats *stats) except -1:
-        """Draw; False where the process was forked meanwhile, which the caller knows."""
+    cdef int draw(self, const e3d_frame *frame, const e3d_targets *outputs, e3d_stats *stats) except -1:
+        """Draw; raise what a signal handler raised, and RendererBusyError if the process was forked meanwhile."""
         cdef e3d_status status
-        require(self.handle != NULL, "the renderer was abandoned")
+        self.check_whole()
         self.interruption = None
         self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL
         with nogil:
             status = e3d_render(self.handle, frame, outputs, stats)
-        if self.handle == NULL:
-            return False
         if self.interruption is not None:
             error, self.interruption = self.interruption, None
             raise error
+        self.check_whole()
         check(status)
-        return True
+        return 0
 
     def draw_shadow_map(
         self,

@@ -12,17 +12,13 @@ import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from .._native.rasterizer import NativeRenderer
+from .._native.rasterizer import FORKED, NativeRenderer
 from ..base.system import after_fork
 from ..errors import RendererBusyError
 
 _WITHIN = (
     "the renderer is drawing already, and this comes from within that frame (a signal handler, or "
     "what a frame calls): leave a note and draw after the frame, or draw with another Renderer"
-)
-_FORKED = (
-    "this process was forked while the renderer drew, and has no more than half of that frame: "
-    "make another Renderer here"
 )
 
 
@@ -66,7 +62,7 @@ class RendererTurn:
     def check(self) -> None:
         """Raise if the process was forked from within a frame."""
         if self._forked:
-            raise RendererBusyError(_FORKED)
+            raise RendererBusyError(FORKED)
 
     def hold(self, native: NativeRenderer) -> None:
         """Note a native renderer that draws in these turns: a forked process must abandon it."""

@@ -175,6 +175,56 @@ assert children[0] > 0 and os.waitpid(children[0], 0)[1] == 0
 assert np.array_equal(draw().color, picture)
 """
 
+FORK_ANYWHERE = """
+def calls(at=None, act=None):
+    count = 0
+    def profile(frame, event, argument):
+        nonlocal count
+        count += 1
+        if count == at:
+            sys.setprofile(None)
+            act()
+    sys.setprofile(profile)
+    try:
+        picture = renderer.render(scene, view).color.tobytes()
+    finally:
+        sys.setprofile(None)
+    return count, picture
+
+scene = e3d.Scene()
+scene.add(e3d.box())
+floor = scene.add(e3d.box((9, 9, 0.1)), translation=(0, 0, -2)).object
+floor.materials = [e3d.Material(mirror=True)]
+scene.add(e3d.DirectionalLight(shadow="map", shadow_map_size=64))
+scene.add(e3d.SpotLight(shadow="map", shadow_map_size=64), translation=(0, 0, 3))
+pose = np.eye(4)
+pose[2, 3] = 4
+renderer, told = None, [0, 0]
+for camera in (e3d.PerspectiveCamera(), e3d.FisheyeCamera(30, 30, 32, 24)):
+    def fresh():
+        global renderer
+        renderer = e3d.Renderer(SIZE, threads=1)
+    view = camera, pose
+    for _ in range(2):  # the first fills what all renderers share
+        fresh()
+        count, picture = calls()
+    for at in range(1, count, max(1, count // 40)):
+        fresh()
+        children = []
+        try:
+            seen = calls(at, lambda: children.append(os.fork()))[1]
+        except e3d.errors.RendererBusyError as error:
+            assert children == [0] and "forked" in str(error)
+            os._exit(7)
+        assert seen == picture
+        if children == [0]:
+            os._exit(0)
+        code = os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1])
+        assert code in (0, 7), (at, code)
+        told[code == 7] += 1
+assert told[0] and told[1] > 50, told
+"""
+
 FORK_WHILE_CHANGING = """
 material, stop = e3d.Material(), threading.Event()
 
@@ -205,6 +255,7 @@ CASES = {
     "a handler draws": DRAWS,
     "a fork beside a frame": FORK_BESIDE,
     "a fork within a frame": FORK_WITHIN,
+    "a fork anywhere in a frame": FORK_ANYWHERE,
     "a fork while others change": FORK_WHILE_CHANGING,
 }
 

@@ -284,6 +284,30 @@ def test_bloom_and_mirrors_and_glass_are_drawn():
     assert bloom.color.sum() > plain.color.sum()
 
 
+@pytest.mark.parametrize("lens", ["fisheye", "equirectangular"])
+def test_mirrors_show_a_gradient(lens):
+    """As those of a pinhole do: R215."""
+    scene = e3d.Scene(background=e3d.Gradient((200,) * 3, (200,) * 3), ambient=(0.0, 0.0, 0.0))
+    scene.add(e3d.DirectionalLight((0, 1, 0), intensity=1e-9))
+    mirror = e3d.box((2, 2, 0.1))
+    mirror.materials = [e3d.Material(color=(0, 0, 0), mirror=1.0)]
+    scene.add(mirror, translation=(0, 0, -2))
+    width, height = SIZE
+    frame = e3d.render(scene, (LENSES[lens], np.eye(4)), size=SIZE, look="plain")
+    off = np.abs(frame.color[height // 2, width // 2, :3].astype(int) - 200)
+    assert off.max() <= 1
+
+
+def test_coloured_glass_before_a_gradient_is_told_of():
+    scene = e3d.Scene(background=e3d.Gradient((200,) * 3, (100,) * 3))
+    glass = e3d.box((2, 2, 0.1))
+    held = {"metallic": 0.0, "roughness": 0.0, "transmission": 1.0}
+    glass.materials = [e3d.Material(color=(255, 0, 0), **held)]
+    scene.add(glass, translation=(0, 0, -2))
+    with pytest.warns(e3d.Engine3DWarning, match="without the glass's colour"):
+        e3d.render(scene, (LENSES["fisheye"], np.eye(4)), size=SIZE, look="plain")
+
+
 def test_what_is_not_drawn_is_named():
     scene = things(count=4)
     scene.fog = e3d.Fog((200, 200, 200), 1.0, 8.0)

@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from ..._native import rasterizer as _native
 from ..._native.lens import CODES_BYTES, fill_codes
+from ...errors import warn
 from ...model.scene.cameras import IntrinsicsCamera
 from ...model.scene.gradients import Gradient
 from ...model.scene.lenses.lens_camera import LensCamera
 from ...model.scene.scene import Scene
 from ...model.scene.staged_scene import AnyScene
+from .._bare_scene import BareScene
 from .._lens_view import LensView
 from .._memo import Memo
 from .._output_pool import OutputPool, Shapes, shapes_of
@@ -37,7 +39,7 @@ from .lens_options import (
     warn_of_scene,
 )
 from .lens_plan import Face, LensPlan, plan_lens
-from .lens_scene import lens_scene
+from .lens_scene import lens_scene, lets_light_pass
 from .lens_stats import LensStats
 from .lens_values import Found, blank, coloured_values, empty, value_of
 
@@ -129,12 +131,14 @@ class LensPainter:
         return kept
 
     def _warn(self, through: Through, faces: list[Picture]) -> None:
-        """Warn once of each scene and options, if the lens has several faces."""
+        """Warn once of each scene and options of what differs from a pinhole's picture."""
         scene, options = through.scene, through.options
         refracts = any("behind" in face.arrays for face in faces)
         if self._told.differs(id(scene), scene.fog, options, len(faces), refracts):
             if len(faces) > 1:
                 warn_of_scene(scene, options, refracts)
+            if _is_behind(scene) and options.mode == "lit" and lets_light_pass(scene):
+                warn("through a lens, glass shows a gradient behind it without the glass's colour")
             self._told.done()
 
     def _draw_face(self, through: Through, plan: LensPlan, k: int, arrays: Arrays) -> Picture:
@@ -149,7 +153,9 @@ class LensPainter:
             name: array[face.pixels].reshape(height, width, *array.shape[1:])
             for name, array in arrays.items()
         }
-        scene = cast(AnyScene, _Bare(through.scene)) if _is_behind(through.scene) else through.scene
+        scene = (
+            cast(AnyScene, BareScene(through.scene)) if _is_behind(through.scene) else through.scene
+        )
         passes = painter.passes.plan(options, tuple(outputs), face.size)
         view = self._view(through.view, face, k)
         shot = Shot(view, face.size, plan.rows, through.view.towards_viewer, through.frozen)
@@ -268,18 +274,6 @@ def _pinhole(
     fx: float, fy: float, cx: float, cy: float, znear: float, zfar: float
 ) -> IntrinsicsCamera:
     return IntrinsicsCamera(fx, fy, cx, cy, znear=znear, zfar=zfar)
-
-
-class _Bare:
-    """A scene without its background."""
-
-    background = None
-
-    def __init__(self, scene: AnyScene) -> None:
-        self._scene = scene
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._scene, name)
 
 
 def _is_behind(scene: AnyScene) -> bool:

@@ -6,12 +6,14 @@ In: a scene as it is drawn. Out: its nodes as `NativeLens.find` takes them. What
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..._native.scene_graph import SHOWN, NativeGraph, NativeShapes
+from ...model.materials.material import Material
 from ...model.scene.scene_data import SceneData
 from ...model.scene.staged_data import StagedData
 from ...model.scene.staged_scene import AnyScene
@@ -65,7 +67,17 @@ def lens_scene(scene: AnyScene, is_nearest: bool) -> LensScene:
     return LensScene(arrays, shapes, column["id"][slots], slots, flags)
 
 
+def lets_light_pass(scene: AnyScene) -> bool:
+    """Return whether some material of a scene transmits light."""
+    data = scene.data.own if isinstance(scene.data, StagedData) else scene.data
+    objects = data.objects.objects
+    return any(one.is_physical and one.transmission for obj in objects for one in _materials(obj))
+
+
 def _is_solid(obj: Any) -> bool:
     """Return whether all of an object's faces show, and nothing through them."""
-    materials = getattr(getattr(obj, "mesh", obj), "materials", ())
-    return all(one.alpha_mode == "opaque" and not one.transmission for one in materials)
+    return all(one.alpha_mode == "opaque" and not one.transmission for one in _materials(obj))
+
+
+def _materials(obj: Any) -> Iterable[Material]:
+    return getattr(getattr(obj, "mesh", obj), "materials", ())

@@ -16,6 +16,7 @@ from ...model.environments.environment import Environment
 from ...model.materials.display_colors import shading_color
 from ...model.scene.gradients import Gradient
 from ...model.scene.staged_scene import AnyScene
+from .._bare_scene import BareScene
 from .._memo import Memo
 from .._tone_inverse import light_that_shows
 from ..options import RenderOptions
@@ -37,9 +38,9 @@ class MirrorBackgrounds:
         self._made_of = Memo()
         self._made: Environment | None = None
 
-    def beyond(self, scene: AnyScene, options: RenderOptions) -> Environment | None:
+    def beyond(self, scene: AnyScene | BareScene, options: RenderOptions) -> Environment | None:
         """Return the environment in place of a background; None if it has light, or is nothing."""
-        background = scene.background
+        background = scene.apart if isinstance(scene, BareScene) else scene.background
         if background is None or isinstance(background, Environment):
             return None
         if isinstance(background, Gradient):

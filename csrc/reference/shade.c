@@ -82,10 +82,29 @@ static void find_color(const e3d_frame *frame, const ref_surface *surface, float
         out[c] = surface->albedo[c];
 }
 
+/* What fog makes of black (R121). */
+static void find_haze(const e3d_frame *frame, const ref_surface *surface, float haze[3])
+{
+    haze[0] = haze[1] = haze[2] = 0.0f;
+    if (frame->fog.kind != E3D_FOG_NONE)
+        ref_add_fog(&frame->fog, surface->metric_depth, 1, haze);
+}
+
+/* R121, of what transmits: light that passes brings the fog of its whole way. */
+static void clear_haze(const e3d_frame *frame, const ref_surface *surface, const float haze[3], float color[3])
+{
+    float transmittance[3];
+    if (frame->fog.kind == E3D_FOG_NONE || !ref_transmits(frame, surface->piece))
+        return;
+    ref_transmittance(frame, surface, transmittance);
+    for (int c = 0; c < 3; c++)
+        color[c] = ref_max(color[c] - transmittance[c] * haze[c], 0.0f);
+}
+
 /* R212 */
 static void add_mirror(const e3d_frame *frame, const ref_surface *surface, float color[3])
 {
-    float share[3], haze[3] = {0.0f, 0.0f, 0.0f};
+    float share[3], haze[3];
     if (!(surface->mirror > 0.0f))
         return;
     if (!surface->piece->primitive.material->is_physical) {
@@ -93,14 +112,14 @@ static void add_mirror(const e3d_frame *frame, const ref_surface *surface, float
             color[c] = color[c] + (surface->mirrored_light[c] - color[c]) * surface->mirror;
         return;
     }
-    if (frame->fog.kind != E3D_FOG_NONE)
-        ref_add_fog(&frame->fog, surface->metric_depth, 1, haze);
+    find_haze(frame, surface, haze);
     ref_mirror_share(frame, surface, share);
     for (int c = 0; c < 3; c++)
         color[c] = color[c] + share[c] * (surface->mirrored_light[c] - haze[c]);
 }
 
-void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
+/* The colour of a surface before R117, with all the fog between it and the eye. */
+static void shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
     int is_fogged = frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT;
     find_color(frame, surface, out);
@@ -109,11 +128,24 @@ void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
     add_mirror(frame, surface, out);
 }
 
+void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    float haze[3];
+    shade(frame, surface, out);
+    find_haze(frame, surface, haze);
+    clear_haze(frame, surface, haze, out);
+}
+
 void ref_show(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
-    ref_shade(frame, surface, out);
-    if (is_lit(frame, surface))
+    float haze[3];
+    shade(frame, surface, out);
+    find_haze(frame, surface, haze);
+    if (is_lit(frame, surface)) {
         ref_map_tone(frame->tone_mapping, out);
+        ref_map_tone(frame->tone_mapping, haze);
+    }
+    clear_haze(frame, surface, haze, out);
     for (int c = 0; c < 3; c++)
         out[c] = ref_clamp(out[c], 0.0f, 1.0f);
 }

@@ -41,6 +41,28 @@ def test_all_fog_is_its_colour(name):
     assert off.max() <= 1
 
 
+@pytest.mark.parametrize("name", TONE_MAPPINGS)
+@pytest.mark.parametrize("values", [{}, {"transmission": 0.5}, {"roughness": 0.4}, {"ior": 1.0}])
+def test_glass_brings_no_more_fog_than_there_is(name, values):
+    """Where all is fog, it doesn't show; in thin fog black behind it is what it is without."""
+    held = {"color": (255, 200, 90), "metallic": 0.0, "roughness": 0.0, "transmission": 1.0}
+    glass = e3d.Material(**{**held, **values}, thickness=0.3, alpha_mode="opaque")
+    scene = e3d.Scene(HAZE, ambient=(0.0, 0.0, 0.0))
+    scene.add(e3d.DirectionalLight((0, 1, 0), intensity=1e-9))
+    scene.add(e3d.box((1, 1, 0.1))).object.materials = [glass]
+    camera = e3d.PerspectiveCamera(0.6), e3d.look_at((0, 0, 5), (0, 0, 0))
+    scene.fog = e3d.Fog(HAZE, 0.0, 4.0)
+    frame = render(scene, camera, size=SIZE, tone_mapping=name, refraction=False)
+    assert np.abs(frame.color[..., :3].astype(int) - HAZE).max() <= 1
+    wall = scene.add(e3d.box((20, 20, 0.1)), translation=(0, 0, -1))
+    wall.object.materials = [e3d.Material(color=(0, 0, 0))]
+    scene.fog = e3d.Fog(HAZE, 0.0, 20.0)
+    outputs = ("color", "radiance")
+    seen = render(scene, camera, size=SIZE, tone_mapping=name, refraction=False, outputs=outputs)
+    middle, edge = seen.radiance[SIZE[1] // 2, SIZE[0] // 2], seen.radiance[0, 0]
+    assert (middle <= edge * 1.01).all()
+
+
 def test_fog_by_depth():
     scene = e3d.Scene((0, 0, 0), ambient=(1.0, 1.0, 1.0))
     floor = e3d.plane((100, 100), 1)

@@ -82,23 +82,7 @@ void e3d_find_mirrors(const e3d_steps *s)
         e3d_share_mirrors(s->pass, s->bucket, s->out->memory);
 }
 
-/* R212: what fog makes of black. */
-static void find_haze(const e3d_steps *s)
-{
-    e3d_shade_memory *memory = s->out->memory;
-    e3d_mirror_batch *mirrors = &memory->mirrors;
-    const e3d_lane_array *places = e3d_batch_places(&memory->batch);
-    const float *const position[3] = {places[0], places[1], places[2]};
-    float *const haze[3] = {mirrors->haze[0], mirrors->haze[1], mirrors->haze[2]};
-    memset(mirrors->haze, 0, sizeof mirrors->haze);
-    if (e3d_plans(s->pass, E3D_PLAN_ADDS_FOG))
-        s->pass->kernels->fog(&s->pass->view->fog[1], position, memory->batch.count, haze);
-}
-
 void e3d_lay_mirrors(const e3d_steps *s)
 {
-    int is_physical = s->bucket->material->is_physical;
-    if (is_physical)
-        find_haze(s);
-    s->pass->kernels->mirror_light(&s->out->memory->batch, is_physical, &s->out->memory->mirrors);
+    s->pass->kernels->mirror_light(&s->out->memory->batch, s->bucket->material->is_physical, &s->out->memory->mirrors);
 }

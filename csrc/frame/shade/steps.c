@@ -81,7 +81,7 @@ static const e3d_fog_view *fog_of(const e3d_prepared *pass, const e3d_bucket *bu
     return e3d_plans(pass, E3D_PLAN_ADDS_FOG) ? &pass->view->fog[bucket->lit] : NULL;
 }
 
-/* R117 */
+/* R121 */
 static void add_fog(const e3d_steps *s)
 {
     e3d_batch *batch = batch_of(s);
@@ -91,18 +91,56 @@ static void add_fog(const e3d_steps *s)
     s->pass->kernels->fog(fog_of(s->pass, s->bucket), position, batch->count, color);
 }
 
+/* Whether light passes that brings the fog of its whole way. */
+static int clears_haze(const e3d_steps *s) { return s->bucket->transmits && fog_of(s->pass, s->bucket); }
+
+static int needs_haze(const e3d_steps *s) { return clears_haze(s) || (s->bucket->mirrors && s->bucket->material->is_physical); }
+
+/* Finds what fog makes of black. */
+static void find_haze(const e3d_steps *s)
+{
+    e3d_mirror_batch *mirrors = &s->out->memory->mirrors;
+    const e3d_lane_array *places = e3d_batch_places(batch_of(s));
+    const float *const position[3] = {places[0], places[1], places[2]};
+    float *const haze[3] = {mirrors->haze[0], mirrors->haze[1], mirrors->haze[2]};
+    memset(mirrors->haze, 0, sizeof mirrors->haze);
+    if (e3d_plans(s->pass, E3D_PLAN_ADDS_FOG))
+        s->pass->kernels->fog(&s->pass->view->fog[1], position, batch_of(s)->count, haze);
+}
+
+/* R121, of what transmits. */
+static void clear_haze(const e3d_steps *s, e3d_lane_array colors[3])
+{
+    const e3d_shade_memory *memory = s->out->memory;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < memory->batch.count; i++) {
+            float rest = colors[k][i] - memory->textures.batch.through[k][i] * memory->mirrors.haze[k][i];
+            colors[k][i] = rest > 0.0f ? rest : 0.0f;
+        }
+}
+
+static void clear_radiance(const e3d_steps *s) { clear_haze(s, s->out->memory->light); }
+
 static void put_radiance(const e3d_steps *s) { e3d_outputs_radiance(s->in->store, batch_of(s), s->out->pixels); }
 
 static void keep_radiance(const e3d_steps *s) { memcpy(s->out->memory->light, batch_of(s)->color, sizeof s->out->memory->light); }
 
 static e3d_tone_mapping tone_of(const e3d_steps *s) { return s->bucket->lit ? s->pass->frame->tone_mapping : E3D_TONE_NONE; }
 
-/* R121 */
-static void map_tone(const e3d_steps *s)
+/* R117 */
+static void map_planes(const e3d_steps *s, e3d_lane_array colors[3])
 {
-    e3d_batch *batch = batch_of(s);
-    float *const color[3] = {batch->color[0], batch->color[1], batch->color[2]};
-    s->pass->kernels->tone(tone_of(s), color, batch->count);
+    float *const color[3] = {colors[0], colors[1], colors[2]};
+    s->pass->kernels->tone(tone_of(s), color, batch_of(s)->count);
+}
+
+static void map_tone(const e3d_steps *s) { map_planes(s, batch_of(s)->color); }
+
+static void clear_color(const e3d_steps *s)
+{
+    if (tone_of(s) != E3D_TONE_NONE)
+        map_planes(s, s->out->memory->mirrors.haze);
+    clear_haze(s, batch_of(s)->color);
 }
 
 /* ---- pixels ---- */
@@ -176,6 +214,7 @@ static void add_radiance_steps(e3d_steps *s)
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);
     add(s, fog_of(s->pass, bucket) != NULL, add_fog);
+    add(s, needs_haze(s), find_haze);
     add(s, bucket->mirrors, e3d_lay_mirrors);
 }
 
@@ -197,7 +236,9 @@ static void add_alpha_steps(e3d_steps *s)
         add_radiance_steps(s);
         add(s, s->bucket->bends, e3d_find_bends);
         add(s, s->out->list->light != NULL, keep_radiance);
+        add(s, s->out->list->light != NULL && clears_haze(s), clear_radiance);
         add(s, tone_of(s) != E3D_TONE_NONE, map_tone);
+        add(s, clears_haze(s), clear_color);
     }
     add(s, finds_alphas(sink), e3d_find_alphas);
     add(s, sink == E3D_SINK_ALPHA_TEST, e3d_keep_alphas);

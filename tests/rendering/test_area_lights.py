@@ -237,3 +237,23 @@ def test_gltf_tells_that_it_does_not_hold_them(tmp_path, light):
     scene.add(light, name="panel")
     with pytest.warns(e3d.errors.Engine3DWarning, match=f"panel.*{type(light).__name__}"):
         e3d.save_scene(scene, tmp_path / "scene.glb")
+
+
+def test_a_tube_lies_along_its_x_whatever_its_parents_do():
+    scene = e3d.Scene()
+    tube, turned = TubeLight(intensity=50.0, length=2.0, radius=0.05), e3d.linalg.rotation_y(0.7)
+    node = scene.add(tube, parent=scene.add(scale=(1, 1, 3)), pose=turned)
+    along = node.world_pose[:3, 0] / np.linalg.norm(node.world_pose[:3, 0])
+    assert abs(along[2]) > 0.9  # by the parent's scale
+    scene.add(e3d.box((40, 0.1, 40)), translation=(0, -0.5, 0))
+    frame = e3d.render(
+        scene,
+        (e3d.OrthographicCamera(3.0), e3d.look_at((0, 5, 0), (0, 0, 0), (0, 0, -1))),
+        size=(61, 61),
+        outputs=("radiance",),
+        look="plain",
+    )
+    y, x = np.mgrid[-30:31, -30:31]
+    light = frame.radiance[..., 1] ** 4
+    spread = [np.average(k**2, weights=light) for k in (x, y)]
+    assert spread[1] > 2 * spread[0]

@@ -191,11 +191,13 @@ class LightList:
 def _extent(light: AreaLight, pose: list[float]) -> tuple[list[tuple[float, ...]], float]:
     """Return the vectors of an area light's extent in the world, and its radius.
 
-    The first lies along the pose's X, the second beside it, so that both are across its Z.
+    The first lies along the pose's X, the second beside it, so that both are across its Z. That of
+    a tube, which has no other, lies along X whatever Z is.
     """
     half, other_half, radius = light.halves()
+    along = pose[0], pose[4], pose[8]
     z = normalize((pose[2], pose[6], pose[10]))
-    y = normalize(cross(z, (pose[0], pose[4], pose[8])))
-    x = cross(y, z)
+    y = normalize(cross(z, along))
+    x = cross(y, z) if other_half else normalize(along)
     vectors = [tuple(half * part for part in x), tuple(other_half * part for part in y)]
     return vectors, radius

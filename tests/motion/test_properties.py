@@ -36,6 +36,14 @@ def things():
 PATHS = [(kind, path) for kind, held in properties._PROPERTIES.items() for path in held]
 
 
+def test_an_index_of_refraction_of_0_stays():
+    """It is allowed, apart from the range that clips keep to."""
+    material = e3d.Material(metallic=0.0, ior=1.5)
+    for put, held in ((0.0, 0.0), (0.3, 0.0), (0.7, 1.0), (1.2, 1.2), (-3.0, 0.0)):
+        Property(material, "ior").put(np.array([put]))
+        assert material.ior == held
+
+
 @pytest.mark.parametrize(("kind", "path"), PATHS)
 def test_every_property_changes_and_is_put_back(kind, path):
     thing = things()[kind]

@@ -61,6 +61,8 @@ class Kind(NamedTuple):
     width : int
         How many numbers a value has; 0 if it is not numeric.
     is_color : bool
+    apart : float, optional
+        A number outside of the range that is allowed, too.
     """
 
     check: Callable[[Any, str], Any]
@@ -70,6 +72,7 @@ class Kind(NamedTuple):
     high: float = math.inf
     width: int = 0
     is_color: bool = False
+    apart: float | None = None
 
 
 def _above(least: float, words: str, *others: float) -> Callable[[float, str], float]:
@@ -115,7 +118,8 @@ NOT_NEGATIVE = Kind(not_negative, "float", "float, 0 or more", 0.0, width=1)
 NUMBER = Kind(finite, "float", "float", width=1)
 ANGLE = Kind(finite_angle, "float", "float", width=1)
 AT_LEAST_ONE = Kind(_above(1.0, "1 or greater"), "float", "float, 1 or more", 1.0, width=1)
-IOR = Kind(_above(1.0, "0, or 1 or greater", 0.0), "float", "float, 1 or more, or 0", 1.0, width=1)
+_check_ior = _above(1.0, "0, or 1 or greater", 0.0)
+IOR = Kind(_check_ior, "float", "float, 1 or more, or 0", 1.0, width=1, apart=0.0)
 REACH = Kind(_check_reach, "float", "float, greater than 0", 1e-9, width=1)
 FLAG = Kind(flag, "bool", "bool")
 TEXT = Kind(text, "str", "str")

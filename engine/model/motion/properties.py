@@ -41,6 +41,8 @@ class Range(NamedTuple):
         Whether values are clamped to the range of the keys, which splines may exceed: another
         property limits this one.
     is_color : bool
+    apart : float, optional
+        A number below the range that is allowed, too.
     """
 
     low: float = -math.inf
@@ -48,6 +50,14 @@ class Range(NamedTuple):
     width: int = 1
     is_kept: bool = False
     is_color: bool = False
+    apart: float | None = None
+
+    def nearest(self, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the nearest numbers that are allowed."""
+        inside = np.minimum(np.maximum(numbers, self.low), self.high)
+        if self.apart is None:
+            return inside
+        return np.where(numbers < (self.apart + self.low) / 2, self.apart, inside)
 
 
 _POSITIVE, _COLOR = Range(0.0), Range(0.0, width=3, is_color=True)
@@ -64,7 +74,13 @@ _PLACES = {"offset": Range(width=2), "rotation": Range(), "scale": Range(width=2
 _PROPERTIES: dict[type, dict[str, Range]] = {
     Material: {
         **{
-            name: Range(row.kind.low, row.kind.high, row.kind.width, is_color=row.kind.is_color)
+            name: Range(
+                row.kind.low,
+                row.kind.high,
+                row.kind.width,
+                is_color=row.kind.is_color,
+                apart=row.kind.apart,
+            )
             for name, row in PARAMETERS.items()
             if row.kind.width
         },
@@ -120,7 +136,7 @@ class Property(NamedTuple):
     def put(self, numbers: NDArray[np.float64]) -> None:
         """Set the property."""
         target, path, limits = self.target, self.path, range_of(self.target, self.path)
-        numbers = np.minimum(np.maximum(numbers, limits.low), limits.high)
+        numbers = limits.nearest(numbers)
         if path == "color" and limits.width == 4:
             numbers[3] = min(numbers[3], 1.0)
         values = tuple(numbers.tolist())

@@ -1,13 +1,15 @@
 """Materials: defaults, what they refuse, versions."""
 
 import inspect
+import warnings
 
 import numpy as np
 import pytest
 
+import engine3d as e3d
 from engine3d import linear
 from engine3d._native import rasterizer
-from engine3d.errors import InvalidArgumentError
+from engine3d.errors import Engine3DWarning, InvalidArgumentError
 from engine3d.model.materials.colors import linear_color
 from engine3d.model.materials.material import (
     PARAMETERS,
@@ -167,3 +169,24 @@ def test_what_physical_materials_add_says_something(name):
     assert not says_something(Material())
     value = (1, 0, 0) if name == "sheen_color" else 0.5
     assert says_something(Material(**{name: value}))
+
+
+@pytest.mark.parametrize("name", ["transmission", "clearcoat", "iridescence", "sheen_color"])
+def test_what_needs_a_physical_material_is_told_once(name):
+    material = Material(**{name: (1, 0, 0) if name == "sheen_color" else 0.5})
+    scene = e3d.Scene()
+    scene.add(e3d.box()).object.materials = [material]
+    with e3d.Renderer((8, 8), look="plain") as renderer:
+        with pytest.warns(Engine3DWarning, match=f"{name} .* is not drawn") as told:
+            renderer.render(scene)
+            material.color = (0, 0, 0)
+            renderer.render(scene)
+        assert len(told) == 1
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            material.metallic = 0.0
+            renderer.render(scene)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        material.metallic = None
+        e3d.render(scene, size=(8, 8))  # the studio makes it physical

@@ -115,7 +115,8 @@ class Material(ShownInNotebooks, Versioned):
         SHARE_OR_NONE,
         default=None,
         gltf="pbrMetallicRoughness/metallicFactor",
-        doc="If this or ``roughness`` is given, the material is physical. The other counts as 1.",
+        doc="If this or ``roughness`` is given, the material is physical, as rows of glTF's "
+        "extensions need it. The other counts as 1.",
     )
     roughness: OptionalNumber = Parameter(
         SHARE_OR_NONE,
@@ -187,7 +188,8 @@ class Material(ShownInNotebooks, Versioned):
         SHARE,
         default=0.0,
         gltf="transmission/transmissionFactor",
-        doc="Share of the light that passes. ``roughness`` blurs it.",
+        doc="Share of the light that passes; metals let none pass: give ``metallic=0``, too. "
+        "``roughness`` blurs it where ``ior`` is not 1 or 0.",
     )
     thickness: Number = Parameter(
         NOT_NEGATIVE,
@@ -375,6 +377,15 @@ Finish: TypeAlias = Callable[[Material, bool], Material]
 PARAMETERS = parameters_of(Material)
 TEXTURE_SLOTS = tuple(name for name, row in PARAMETERS.items() if isinstance(row, TextureSlot))
 _DEFAULTS = {name: row.kind.check(row.default, name) for name, row in PARAMETERS.items()}
+# What only physically based materials show, and what shows without any other of it.
+_PHYSICAL = (
+    "transmission",
+    "diffuse_transmission",
+    "clearcoat",
+    "sheen_color",
+    "iridescence",
+    "anisotropy",
+)
 _UNSAID = ("name", "two_sided", "flat_shading", *TEXTURE_SLOTS)
 _SAID = tuple(name for name in PARAMETERS if name not in _UNSAID)
 
@@ -438,6 +449,11 @@ def states_nothing(material: Material) -> bool:
     if material._states_color or textures_of(material):
         return False
     return all(a == b for name, a, b in _words_beside(material) if name != "extras")
+
+
+def said_of_physical_ones(material: Material) -> list[str]:
+    """Return the parameters of a material that only physically based ones show."""
+    return [name for name in _PHYSICAL if getattr(material, name) != _DEFAULTS[name]]
 
 
 def says_something(material: Material) -> bool:

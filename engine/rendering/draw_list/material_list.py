@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import os
+import weakref
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
@@ -16,14 +17,22 @@ from ...base import linalg
 from ...base.dirty_tracking import Watch
 from ...base.side_by_side import side_by_side
 from ...choices import ColorSpace
+from ...errors import warn
 from ...model.materials.display_colors import shading_color
-from ...model.materials.material import PARAMETERS, Finish, Material, placed_textures_of
+from ...model.materials.material import (
+    PARAMETERS,
+    Finish,
+    Material,
+    placed_textures_of,
+    said_of_physical_ones,
+)
 from ...model.materials.parameters import TextureSlot
 from ...model.materials.textures import PlacedTexture, Reading, Texture
 from .native_handles import Content, is_new, native_texture
 
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 _LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
+_MOST_ABSORBED = 2.0**100  # in doublings a unit: finite, so that a depth of 0 absorbs nothing
 _LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting a thread, and longer
 # Parameters with the same name in the core have the same number, or the same colour, there.
 _SAME = [name for name in PHYSICAL_NUMBERS if name in PARAMETERS]
@@ -67,6 +76,7 @@ class MaterialList:
         self.finish: Finish | None = None
         # For each material its places, and its uses there.
         self._places: dict[Material, list[tuple[int, _Use]]] = {}
+        self._told: weakref.WeakSet[Material] = weakref.WeakSet()
         # For each material, the normals it needs and whether it is opaque.
         self._traits: dict[Material, tuple[bool, bool]] = {}
         self._textured: dict[Material, set[Texture]] = {}
@@ -137,8 +147,20 @@ class MaterialList:
         shown = material if self.finish is None else self.finish(material, use.tinted)
         sides = {"id": use.number, "two_sided": use.both or material.two_sided}
         physical = _physical(shown, space) if shown.is_physical else None
+        if physical is None and not shown.unlit:
+            self._warn_of_unused(material)
         textures = {slot: self._texture(slot, one) for slot, one in placed.items()}
         self._native.set_material(index, _numbers(shown, space) | sides, physical, textures)
+
+    def _warn_of_unused(self, material: Material) -> None:
+        """Warn once of what a material says and shows only if it is physically based."""
+        said = [] if material in self._told else said_of_physical_ones(material)
+        if said:
+            self._told.add(material)
+            warn(
+                f"{', '.join(said)} of {material!r} is not drawn: it is not physically based; "
+                "give metallic, 0 for glass and cloth, or roughness"
+            )
 
     def _texture(
         self, slot: str, placed: PlacedTexture
@@ -211,7 +233,7 @@ def _physical(material: Material, color_space: ColorSpace) -> dict[str, Any]:
 
 def _absorption(left: float, depth: float) -> float:
     """Return log2 of the share of light left after a unit, if ``left`` is there after ``depth``."""
-    return min(0.0, math.log2(max(left, _LEAST_LEFT)) / depth)
+    return min(0.0, max(math.log2(max(left, _LEAST_LEFT)) / depth, -_MOST_ABSORBED))
 
 
 def _content(slot: str, color_space: ColorSpace) -> Content:

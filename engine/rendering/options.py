@@ -227,7 +227,8 @@ class RenderOptions:
         With ``antialiasing="msaa"``: materials with ``alpha_mode="mask"`` cover as many of a
         pixel's samples as lie on the side of the edge where alpha is above ``alpha_cutoff``, so
         that foliage has edges as smooth as those of faces, and does not vanish in the distance.
-        Without it the alpha test keeps all samples of a pixel or none.
+        Without it the alpha test keeps all samples of a pixel or none, as it always does of
+        materials with ``transmission``.
     sample_shading : bool
         With ``antialiasing="msaa"``: each sample of a pixel gets a colour of its own, so that edges
         inside of faces are as smooth as those of faces: exact shadows, magnified

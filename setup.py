@@ -38,9 +38,11 @@ from build_rules import (
     IS_WINDOWS,
     SANITIZERS,
     STRIPPED,
+    WINDOWS_FLAGS,
     hardened_flags,
     link_flags,
     static_libraries,
+    usable_processors,
 )
 from mirrors import write_mirrors
 from stubs import write_stub
@@ -73,16 +75,19 @@ def requirements():
     return [*REQUIREMENTS, SDL] if has_sdl else REQUIREMENTS
 
 
-# Untested: setuptools' own choice on Windows does not know the flags of gcc and clang.
+# Untested: setuptools' own choice on Windows does not know the flags of clang. This one calls what
+# CC names.
 DEFAULT_COMPILER = "mingw32" if os.name == "nt" else None
 
 # What to install, by the name of a system and by what is missing.
 COMPILERS = {
-    "linux": "Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
-    "Alpine: apk add gcc musl-dev",
-    "darwin": "xcode-select --install",
-    "win32": "MinGW-w64 (gcc), or pip install ziglang and see docs/hacking.md",
+    "linux": "gcc or clang (Debian, Ubuntu: apt-get install gcc libc6-dev; "
+    "Fedora: dnf install gcc; Alpine: apk add gcc musl-dev)",
+    "darwin": "clang (xcode-select --install)",
+    "win32": "clang of MSYS2 or llvm-mingw, and set CC=clang",
 }
+# Words of the error in csrc/base/windows/memory.h.
+UNALIGNED = "does not align the stack"
 HEADERS = "Debian, Ubuntu: apt-get install python3-dev; Fedora: dnf install python3-devel; "
 HEADERS += "Alpine: apk add python3-dev"
 # Compiles where a compiler, the headers of C and those of Python are there.
@@ -154,8 +159,8 @@ class CompilerError(SystemExit):
 
 def no_compiler(name, error):
     """Return the error that tells what to install where a program does not run."""
-    advice = COMPILERS.get(sys.platform, "cc of this system")
-    return CompilerError(f"{name!r}: {error.strerror}. Install gcc or clang ({advice})")
+    advice = COMPILERS.get(sys.platform, "gcc or clang (cc of this system)")
+    return CompilerError(f"{name!r}: {error.strerror}. Install {advice}")
 
 
 def run_compiler(command, **_):
@@ -168,6 +173,8 @@ def run_compiler(command, **_):
     if done.returncode != 0:
         if "Python.h" in done.stderr:
             raise CompilerError(f"Python's header files are missing. {HEADERS}")
+        if UNALIGNED in done.stderr:
+            raise CompilerError(f"gcc {UNALIGNED} on Windows. Install {COMPILERS['win32']}")
         files = ", ".join(word for word in command if word.endswith((".c", ".a", ".so")))
         raise CompilerError(f"{command[0]!r} failed at {files}; what it said stands above")
 
@@ -184,7 +191,8 @@ def check_compiler(compiler):
         source = Path(folder, "probe.c")
         source.write_text(PROBE, "utf-8")
         output = ["-o", os.path.join(folder, "probe.o")]
-        run_compiler([*compiler.compiler_so, *sorted(includes), "-c", str(source), *output])
+        flags = [*sorted(includes), *(WINDOWS_FLAGS if IS_WINDOWS else [])]
+        run_compiler([*compiler.compiler_so, *flags, "-c", str(source), *output])
 
 
 class Build(build):
@@ -347,8 +355,7 @@ class BuildExtensions(build_ext):
 
 def run_in_parallel(function, jobs):
     """Call `function(*job)` for each job, on all processors; raise what the first one raises."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    with ThreadPoolExecutor(len(affinity(0)) if affinity else os.cpu_count()) as pool:
+    with ThreadPoolExecutor(usable_processors()) as pool:
         jobs = [pool.submit(function, *job) for job in jobs]
         done, others = wait(jobs, return_when=FIRST_EXCEPTION)
         for job in others:

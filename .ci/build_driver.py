@@ -77,7 +77,7 @@ def compile_all(compiler, rules, fuzz, folder, more=(), told=lambda made, total:
         subprocess.run(command, check=True)
         return source, target
 
-    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+    with ThreadPoolExecutor(rules["usable_processors"]()) as pool:
         return dict(told(pool.map(compile_one, jobs), len(jobs)))
 
 

@@ -9,13 +9,13 @@ Out: a table, or with --json one object: the median milliseconds of a frame of e
 import argparse
 import contextlib
 import json
-import os
 import statistics
 import subprocess
 import sys
 
 from engine3d.apps.bench import figures, measuring
 from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
+from engine3d.base.system import usable_processors
 
 SIZE = (1280, 720)
 WORKLOADS = ("textured", "mesh", "city-street")
@@ -62,7 +62,7 @@ def line(row):
 
 
 def main():
-    cpus = len(os.sched_getaffinity(0))
+    cpus = usable_processors()
     parser = argparse.ArgumentParser(description="Measure threads while other programs run.")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument(

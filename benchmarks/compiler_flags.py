@@ -134,7 +134,7 @@ def measure(compiler, backends, levels):
     rows = list(builds(backends, levels))
     with (
         tempfile.TemporaryDirectory() as top,
-        ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool,
+        ThreadPoolExecutor(RULES["usable_processors"]()) as pool,
     ):
         core = build_core(compiler, top, pool)
         folders = [Path(top) / str(k) for k in range(len(rows))]

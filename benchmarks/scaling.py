@@ -9,7 +9,6 @@ One thread and CPU time, but of the threads the time that passes; medians of sev
 
 import argparse
 import json
-import os
 import statistics
 import sys
 import time
@@ -18,6 +17,7 @@ import line_chart
 
 from engine3d.apps.bench import figures, measuring
 from engine3d.apps.scenes import workloads
+from engine3d.base.system import usable_processors
 
 SIZE = (1280, 720)
 SIDES = (1, 2, 3, 6, 10, 18, 32, 56, 100, 178, 316)
@@ -46,7 +46,7 @@ def layers(most):
 
 def threads(most):
     made = workloads.make("city-above")
-    cpus = len(os.sched_getaffinity(0))
+    cpus = usable_processors()
     for count in sorted({2**power for power in range(cpus.bit_length())} | {cpus}):
         yield count, made, SIZE, count
 

@@ -89,13 +89,23 @@ MACHINE = machine_of(sysconfig.get_platform())
 IS_WINDOWS = is_windows(sysconfig.get_platform())
 
 
+# What every C file of Windows begins with.
+WINDOWS_FLAGS = ["-include", "csrc/base/windows/memory.h"]
+
+
+def usable_processors():
+    """The number of processors that a build may use; macOS does not tell of affinities."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
 def common_flags():
     """The flags of every C file, the kernels too."""
     if BUILD not in BUILDS:
         raise SystemExit(f"ENGINE3D_BUILD={BUILD}: expected one of {', '.join(BUILDS)}")
     baseline = [*MACHINES[MACHINE][1]] if MACHINE else []
     if IS_WINDOWS:
-        baseline += ["-include", "csrc/base/windows/memory.h"]
+        baseline += WINDOWS_FLAGS
     return [*baseline, *BUILDS[BUILD], *EXACT, *HYGIENE, *SANITIZERS.get(BUILD, [])]
 
 

@@ -1,7 +1,9 @@
 """The build's own promises, tried with the real setup.py on a tree of a few tiny C files."""
 
 import os
+import platform
 import re
+import runpy
 import shutil
 import stat
 import subprocess
@@ -231,6 +233,7 @@ def test_a_missing_compiler_is_one_line_that_says_what_to_install(tiny_tree, bui
     assert len(lines) < 20 and not [line for line in lines if "Traceback" in line]
     assert lines[-1].startswith(f"error: engine3d cannot be compiled: {compiler.split()[0]!r}: ")
     assert "Install gcc or clang (Debian, Ubuntu: apt-get install gcc libc6-dev" in lines[-1]
+    assert lines[-1].endswith("apk add gcc musl-dev)")
 
 
 def test_a_compiler_that_fails_has_the_first_word(tiny_tree):
@@ -243,6 +246,24 @@ def test_missing_headers_of_python_are_named(tiny_tree):
     says = "fatal error: Python.h: No such file or directory"
     lines = failed(tiny_tree, BUILDERS["in place"], CC=compiler_that(tiny_tree, says))
     assert lines[-2] == says and "apt-get install python3-dev" in lines[-1]
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="of processors with AVX")
+def test_gcc_is_refused_for_windows(source_tree, tiny_tree):
+    gcc = shutil.which("gcc") or pytest.skip("needs gcc")
+    command = [gcc, "-E", "-x", "c", source_tree / "csrc" / "base" / "windows" / "memory.h"]
+    refused = subprocess.run(command, capture_output=True, text=True)
+    says = next(line for line in refused.stderr.splitlines() if "#error" in line)
+    compiler = compiler_that(tiny_tree, says.replace("'", ""))
+    lines = failed(tiny_tree, BUILDERS["wheel"], CC=compiler)
+    assert lines[-1].startswith("error: engine3d cannot be compiled: gcc does not align the stack")
+    assert lines[-1].endswith("Install clang of MSYS2 or llvm-mingw, and set CC=clang")
+
+
+def test_processors_are_counted_where_the_system_knows_no_affinity(source_tree, monkeypatch):
+    rules = runpy.run_path(str(source_tree / "csrc" / "build_rules.py"))
+    monkeypatch.delattr(os, "sched_getaffinity", raising=False)
+    assert rules["usable_processors"]() == os.cpu_count()
 
 
 def test_an_error_in_a_file_is_the_compilers_and_ends_the_build(tiny_tree):

@@ -2,6 +2,10 @@
  * line. There, the build includes this file before all others. */
 #pragma once
 
+#if defined __x86_64__ && !defined __clang__
+#error "gcc does not align the stack for vectors of AVX on Windows: build with clang or zig"
+#endif
+
 #define _CRT_RAND_S /* rand_s, for system.c: stdlib.h is read here first */
 #include <malloc.h>
 #include <stddef.h>

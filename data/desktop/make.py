@@ -17,10 +17,11 @@ from manual_page import manual_page
 
 from engine3d.apps.cli.plugin_switch import NO_PLUGINS, plugins_as_asked
 from engine3d.io.loaders import formats
-from engine3d.version import __version__
+from engine3d.version import RELEASED, __version__
 
 FOLDER = Path(__file__).resolve().parent
 SUMMARY = "Look at 3D models"
+AUTHORS = "engine3d authors"
 #: Format -> its MIME type. What only optional packages read is left to the programs made for it.
 TYPES = {
     "3mf": "model/3mf",
@@ -121,6 +122,9 @@ def metadata() -> str:
   <project_license>MIT AND OFL-1.1</project_license>
   <name>engine3d</name>
   <summary>{SUMMARY}</summary>
+  <developer>
+    <name>{AUTHORS}</name>
+  </developer>
   <description>
     <p>
       engine3d draws 3D models on the processor alone: it needs no graphics card and no driver. It
@@ -135,6 +139,9 @@ def metadata() -> str:
     <category>3DGraphics</category>
   </categories>
   <content_rating type="oars-1.1"/>
+  <releases>
+    <release version="{__version__}" date="{RELEASED}"/>
+  </releases>
   <provides>
     <binary>engine3d</binary>
 {media}  </provides>
@@ -150,7 +157,7 @@ def files() -> dict[str, str]:
             "engine3d.thumbnailer": thumbnailer(),
             "engine3d.xml": mime_types(),
             "engine3d.metainfo.xml": metadata(),
-            "engine3d.1": manual_page(__version__),
+            "engine3d.1": manual_page(__version__, RELEASED),
         }
 
 

@@ -21,13 +21,13 @@ EXIT_STATUS = {
 }
 
 
-def manual_page(version: str) -> str:
-    """Return the page."""
-    return "\n".join(_lines(make_parser(), version)) + "\n"
+def manual_page(version: str, date: str) -> str:
+    """Return the page of a version, released on a date such as 2026-12-01."""
+    return "\n".join(_lines(make_parser(), version, date)) + "\n"
 
 
-def _lines(parser: argparse.ArgumentParser, version: str) -> Iterator[str]:
-    yield f'.TH ENGINE3D 1 "" "engine3d {version}" "User Commands"'
+def _lines(parser: argparse.ArgumentParser, version: str, date: str) -> Iterator[str]:
+    yield f'.TH ENGINE3D 1 "{date}" "engine3d {version}" "User Commands"'
     yield ".nh"  # words such as names of options stay whole
     yield ".ad l"
     yield ".SH NAME"

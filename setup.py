@@ -9,7 +9,7 @@ has changed or a file that it includes, which the compiler lists beside the obje
 ENGINE3D_BUILD=release|debug|profile|asan|tsan|msan chooses the kind of build, each in its own
 folder.
 Everything that is not a rule of the build (name, version, extras) is in pyproject.toml; what the
-package needs depends on the system, and is here.
+package needs depends on the system, and its addresses on the repository: both are here.
 """
 
 import json
@@ -68,11 +68,33 @@ WHEEL = {"py_limited_api": f"cp{OLDEST[0]}{OLDEST[1]}"} if IS_LIMITED else {}
 TESTING_MODULE = f"{NATIVE}.kernels_testing"
 
 
+# What a package's page links to -> where GitHub has it below the repository.
+PAGES = {
+    "Source": "",
+    "Documentation": "/blob/HEAD/docs/index.md",
+    "Changelog": "/blob/HEAD/CHANGELOG.md",
+    "Issues": "/issues",
+}
+
+
 def requirements():
     """The packages that engine3d needs at run time, where it is built for."""
     names = [sysconfig.get_config_var(name) or "" for name in ("SOABI", "HOST_GNU_TYPE")]
     has_sdl = not WITHOUT_SDL.search(" ".join([sysconfig.get_platform(), *names]))
     return [*REQUIREMENTS, SDL] if has_sdl else REQUIREMENTS
+
+
+def project_urls():
+    """The addresses that the package names: those of the repository that releases it.
+
+    The source lies wherever it was copied to. ENGINE3D_REPOSITORY says where this copy does.
+    """
+    repository = os.environ.get("ENGINE3D_REPOSITORY", "").rstrip("/")
+    if not repository:
+        return {}
+    if not repository.startswith("https://"):
+        raise SystemExit(f"ENGINE3D_REPOSITORY={repository}: expected https://...")
+    return {name: f"{repository}{page}" for name, page in PAGES.items()}
 
 
 # Untested: setuptools' own choice on Windows does not know the flags of clang. This one calls what
@@ -460,6 +482,7 @@ if __name__ == "__main__":
             "engine3d.data": SOURCE_ONLY,
         },
         install_requires=requirements(),
+        project_urls=project_urls(),
         options={"bdist_wheel": WHEEL},
         libraries=static_libraries(),
         ext_modules=extensions(),

@@ -1,8 +1,10 @@
 """The bill of materials of a release, as CycloneDX 1.6 has it: engine3d, its files, what it needs.
 
 In:  the files of the release, with their hashes. Out: a text of JSON, the same for the same files.
-engine3d's own source is all that is compiled into it. `required` are the packages that pip installs
-with it, of whichever version: pip chooses. The tools are of the very versions that made the files.
+Within a wheel's component stands what its compiler adds to engine3d's own source; the notices that
+licences demand are in csrc/NOTICES.txt, which every wheel holds. `required` are the packages that
+pip installs with it, of whichever version: pip chooses. The tools are of the very versions that
+made the files.
 """
 
 import json
@@ -13,8 +15,19 @@ import zipfile
 from datetime import datetime, timezone
 from email.parser import Parser
 from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
 
 TOOLS = ("setuptools", "Cython", "ziglang")
+# What is compiled into wheels: part of the file's name, component, package that brings it, licence.
+COMPILED_IN = (
+    (".whl", "compiler_rt of zig", "ziglang", "MIT"),
+    # Its licence puts no condition on what its output holds of it.
+    (".whl", "code that Cython adds", "Cython", "Apache-2.0"),
+    ("-win_", "mingw-w64", "mingw-w64", "ZPL-2.1"),
+    ("-win_", "winpthreads", "mingw-w64", "MIT"),
+    ("-win_", "musl", "ziglang", "MIT"),
+)
 # Any name space will do, so long as it stays: the serial number is made of it and of the hashes.
 NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://cyclonedx.org/")
 
@@ -82,7 +95,29 @@ def component_of(need):
 
 def file_component(name, digest):
     hashes = [{"alg": "SHA-256", "content": digest}]
-    return {"type": "file", "bom-ref": f"file:{name}", "name": name, "hashes": hashes}
+    component = {"type": "file", "bom-ref": f"file:{name}", "name": name, "hashes": hashes}
+    held = [compiled_in(*row) for part, *row in COMPILED_IN if part in name]
+    return component | ({"components": held} if held else {})
+
+
+def compiled_in(name, package, licence):
+    """Return the component of what a compiler adds, as its package brings it."""
+    number = mingw_version() if package == "mingw-w64" else version(package)
+    return {
+        "type": "library",
+        "name": name,
+        "version": number if name == package else f"of {package} {number}",
+        "licenses": [{"license": {"id": licence}}],
+    }
+
+
+def mingw_version():
+    """Return the version of the copy of mingw-w64 that ziglang brings, from its own header."""
+    zig = Path(find_spec("ziglang").origin).parent
+    header = zig / "lib" / "libc" / "include" / "any-windows-any" / "_mingw_mac.h"
+    parts = ("MAJOR", "MINOR", "BUGFIX")
+    found = [re.search(rf"MINGW64_VERSION_{part}\s+(\d+)", header.read_text()) for part in parts]
+    return ".".join(number[1] for number in found)
 
 
 def tool(name, number):

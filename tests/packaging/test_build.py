@@ -67,6 +67,8 @@ def built_once(source_tree, run_python, tmp_path_factory):
         "lessons/__init__.py": "",
         "README.md": "",
         "LICENSE": "",
+        "data/fonts/LICENSE.txt": "",
+        "csrc/NOTICES.txt": "",
     }
     for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)

@@ -125,6 +125,15 @@ def test_wheel_holds_what_desktops_and_man_look_for(wheel, source_tree):
     assert shared == {path.name for path in desktop if path.suffix not in (".py", "")}
 
 
+def test_wheel_holds_the_licences_of_all_that_is_in_it(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        names = [name.partition(".dist-info/licenses/")[2] for name in archive.namelist()]
+        (metadata,) = (name for name in archive.namelist() if name.endswith("/METADATA"))
+        text = archive.read(metadata).decode()
+    assert {*filter(None, names)} == {"LICENSE", "data/fonts/LICENSE.txt", "csrc/NOTICES.txt"}
+    assert "License-Expression: MIT AND OFL-1.1\n" in text
+
+
 def test_wheel_holds_nothing_else(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()

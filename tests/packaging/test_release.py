@@ -191,6 +191,7 @@ def test_a_source_distribution_has_the_same_bytes_whoever_packs_it(source_tree, 
 def test_a_bill_of_materials_names_the_files_and_what_they_need(source_tree, tmp_path, monkeypatch):
     written = rules(source_tree, ".ci/bill_of_materials.py")["bill_of_materials"]
     monkeypatch.setitem(written.__globals__, "version", lambda name: "1.2")
+    monkeypatch.setitem(written.__globals__, "mingw_version", lambda: "15.0.0")
     metadata = (
         "Metadata-Version: 2.4\nName: engine3d\nVersion: 0.1\nSummary: Draws\n"
         'License-Expression: MIT\nRequires-Dist: NumPy_x>=1.23\nRequires-Dist: no; extra == "no"\n'
@@ -199,18 +200,54 @@ def test_a_bill_of_materials_names_the_files_and_what_they_need(source_tree, tmp
     with zipfile.ZipFile(wheel, "w") as archive:
         archive.writestr("engine3d-0.1.dist-info/METADATA", metadata)
     digests = {"engine3d.whl": "ab" * 32, "engine3d.tar.gz": "cd" * 32}
+    digests["engine3d-win_amd64.whl"] = "ef" * 32
     text = written(digests, [wheel], 1_700_000_000)
     assert text == written(dict(reversed(digests.items())), [wheel], 1_700_000_000)
     content = json.loads(text)
     itself = content["metadata"]["component"]
     assert itself["purl"] == "pkg:pypi/engine3d@0.1"
     assert {one["name"]: one["hashes"][0]["content"] for one in itself["components"]} == digests
+    held = {
+        one["name"]: [part["name"] for part in one.get("components", [])]
+        for one in itself["components"]
+    }
+    everywhere = ["compiler_rt of zig", "code that Cython adds"]
+    assert held == {
+        "engine3d.tar.gz": [],
+        "engine3d.whl": everywhere,
+        "engine3d-win_amd64.whl": [*everywhere, "mingw-w64", "winpthreads", "musl"],
+    }
     (needed,) = content["components"]
     assert (needed["purl"], needed["properties"][0]["value"]) == ("pkg:pypi/numpy-x", ">=1.23")
     assert content["dependencies"][0]["dependsOn"] == [needed["bom-ref"]]
     validation = pytest.importorskip("cyclonedx.validation.json", exc_type=ImportError)
     schema = pytest.importorskip("cyclonedx.schema", exc_type=ImportError)
     assert validation.JsonStrictValidator(schema.SchemaVersion.V1_6).validate_str(text) is None
+
+
+def test_what_is_compiled_in_has_its_notice(source_tree):
+    notices = (source_tree / "csrc" / "NOTICES.txt").read_text("utf-8")
+    rows = rules(source_tree, ".ci/bill_of_materials.py")["COMPILED_IN"]
+    for part, name, _, licence in rows:
+        where = "wheels for Windows" if part == "-win_" else "all wheels"
+        assert (f"\n{name} ({where})\n" in notices) is (licence != "Apache-2.0"), name
+
+
+@pytest.mark.parametrize(
+    "given, links",
+    [("", 0), ("https://code.invalid/us/engine3d/", 4), ("code.invalid", None)],
+)
+def test_the_repository_that_releases_it_is_named(source_tree, monkeypatch, given, links):
+    monkeypatch.setenv("ENGINE3D_REPOSITORY", given)
+    asked = rules(source_tree, "setup.py")["project_urls"]
+    if links is None:
+        with pytest.raises(SystemExit, match=r"ENGINE3D_REPOSITORY=code.invalid: expected https"):
+            asked()
+        return
+    assert len(asked()) == links
+    if links:
+        assert asked()["Source"] == "https://code.invalid/us/engine3d"
+        assert asked()["Changelog"] == "https://code.invalid/us/engine3d/blob/HEAD/CHANGELOG.md"
 
 
 def test_the_recipe_for_conda_says_what_the_package_does(source_tree):

@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import re
 import runpy
 import subprocess
 import sys
@@ -254,11 +255,39 @@ def test_the_recipe_for_conda_says_what_the_package_does(source_tree):
     yaml = pytest.importorskip("yaml", exc_type=ImportError)
     recipe = yaml.safe_load((source_tree / ".ci" / "conda" / "recipe.yaml").read_text("utf-8"))
     assert recipe["package"]["version"] == e3d.__version__
-    needed = [need.replace(" ", "") for need in recipe["requirements"]["run"]]
-    assert [*rules(source_tree, "setup.py")["REQUIREMENTS"], "sdl2"] == needed[1:]
-    (script,) = recipe["build"]["python"]["entry_points"]
+    needed, built_with = (
+        [need.replace(" ", "") for need in recipe["requirements"][name]] for name in ("run", "host")
+    )
     project = (source_tree / "pyproject.toml").read_text("utf-8")
-    assert script.replace(" = ", ' = "') + '"' in project
+    oldest = re.search(r'^requires-python = "(.+)"$', project, re.MULTILINE)[1]
+    required = rules(source_tree, "setup.py")["REQUIREMENTS"]
+    assert needed == [f"python{oldest}", *required, "sdl2"]
+    build_system = re.search(r"^requires = (\[.+\])$", project, re.MULTILINE)[1]
+    assert built_with == [f"python{oldest}", "pip", *json.loads(build_system)]
+    # pip would miss pysdl2-dll, for which sdl2 stands.
+    assert recipe["tests"][0]["python"]["pip_check"] is False
+    assert recipe["about"]["license_file"] == ["LICENSE", "data/fonts/LICENSE.txt"]
+
+
+@pytest.mark.parametrize(
+    "platform, tools",
+    [
+        ("linux-64", ["gcc_linux-64", "sysroot_linux-64 2.17.*"]),
+        ("osx-arm64", ["clang_osx-arm64", "macosx_deployment_target_osx-arm64 11.0.*"]),
+    ],
+)
+def test_rattler_build_resolves_the_recipe(source_tree, platform, tools):
+    rattler = pytest.importorskip("rattler_build", reason="pip install py-rattler-build")
+    folder = source_tree / ".ci" / "conda"
+    machine = rattler.PlatformConfig(
+        target_platform=platform, build_platform=platform, host_platform=platform
+    )
+    variants = rattler.VariantConfig.from_file_with_context(
+        folder / "variants.yaml", rattler.JinjaConfig(platform=machine)
+    )
+    recipe = rattler.Stage0Recipe.from_file(folder / "recipe.yaml")
+    (made,) = recipe.render(variants, rattler.RenderConfig(platform=machine))
+    assert made.recipe.to_dict()["requirements"]["build"] == tools
 
 
 def test_forms_and_workflows_can_be_read(source_tree):

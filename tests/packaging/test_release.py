@@ -290,6 +290,75 @@ def test_rattler_build_resolves_the_recipe(source_tree, platform, tools):
     assert made.recipe.to_dict()["requirements"]["build"] == tools
 
 
+@pytest.fixture
+def workflow(source_tree):
+    """The workflow that publishes a release."""
+    yaml = pytest.importorskip("yaml", exc_type=ImportError)
+    path = source_tree / ".github" / "workflows" / "release.yml"
+    return yaml.safe_load(path.read_text("utf-8"))
+
+
+def shell(command, cwd, **variables):
+    done = subprocess.run(
+        ["bash", "-e", "-c", command],
+        cwd=cwd,
+        env={**os.environ, **variables},
+        capture_output=True,
+        text=True,
+    )
+    return done.returncode, done.stdout
+
+
+def test_only_a_tag_of_this_version_is_released(workflow, source_tree, tmp_path):
+    tools = tmp_path / "bin"
+    tools.mkdir()
+    (tools / "python").symlink_to(sys.executable)
+    path = f"{tools}:{os.environ['PATH']}"
+    (step,) = (step for step in workflow["jobs"]["build"]["steps"] if "tag" in step.get("name", ""))
+    for tag, status in {f"v{e3d.__version__}": 0, "v0.0.9": 1}.items():
+        done, said = shell(step["run"], source_tree, GITHUB_REF_NAME=tag, PATH=path)
+        assert done == status and (tag in said) is bool(status)
+
+
+def test_each_wheel_is_tried_and_draws_the_same(workflow, source_tree, tmp_path):
+    jobs = workflow["jobs"]
+    tried = [name for job in ("install", "install-musl") for name in systems_of(jobs[job])]
+    assert len(tried) == len(rules(source_tree, ".ci/release")["TARGETS"])
+    compare = jobs["same-pixels"]["steps"][-1]["run"]
+    for number in range(len(tried)):
+        folder = tmp_path / "pixels" / f"pixels-{number}"
+        folder.mkdir(parents=True)
+        (folder / "pixels.txt").write_bytes(b"ab\r\n" if number else b"ab\n")
+    assert shell(compare, tmp_path)[0] == 0
+    (folder / "pixels.txt").write_text("cd\n")
+    assert shell(compare, tmp_path)[0] == 1
+    (folder / "pixels.txt").unlink()
+    assert shell(compare, tmp_path)[0] == 1
+
+
+def systems_of(job):
+    return job["strategy"]["matrix"]["os"]
+
+
+def test_the_drawing_of_the_workflow_is_hashed(workflow, tmp_path):
+    tools = tmp_path / "bin"
+    tools.mkdir()
+    for name, command in {"python": "", "engine3d": "-m engine3d"}.items():
+        (tools / name).write_text(f'#!/bin/sh\nexec "{sys.executable}" {command} "$@"\n')
+        (tools / name).chmod(0o755)
+    status, _ = shell(workflow["env"]["DRAW"], tmp_path, PATH=f"{tools}:{os.environ['PATH']}")
+    assert status == 0 and re.fullmatch(r"[0-9a-f]{64}\n", (tmp_path / "pixels.txt").read_text())
+
+
+def test_a_wheel_that_is_too_large_is_refused(source_tree, tmp_path):
+    release = rules(source_tree, ".ci/release")
+    wheel = tmp_path / "large.whl"
+    with open(wheel, "wb") as file:
+        file.truncate(release["MAX_WHEEL_BYTES"] + 1)
+    with pytest.raises(SystemExit, match=r"large.whl: 6,200,001 bytes, of at most 6,200,000"):
+        release["check"](wheel, "win_amd64")
+
+
 def test_forms_and_workflows_can_be_read(source_tree):
     yaml = pytest.importorskip("yaml", exc_type=ImportError)
     paths = [*source_tree.glob(".github/**/*.yml"), source_tree / ".readthedocs.yaml"]

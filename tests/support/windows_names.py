@@ -1,4 +1,4 @@
-"""What Python's own modules lack on Windows, as mypy's copy of typeshed has it."""
+"""What Python's own modules lack on Windows and macOS, as mypy's copy of typeshed has it."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ WHOLLY = ("crypt", "fcntl", "grp", "pty", "pwd", "readline", "resource", "syslog
 
 
 @functools.cache
-def missing(module: str) -> frozenset[str]:
-    """The names that a module has on Linux, but not on Windows."""
+def missing(module: str, platform: str = "win32") -> frozenset[str]:
+    """The names that a module has on Linux, but not on another platform."""
     place = typeshed() / module
     stub = place / "__init__.pyi" if place.is_dir() else place.with_suffix(".pyi")
     body = ast.parse(stub.read_text("utf-8")).body
-    return frozenset(_names(body, "linux") - _names(body, "win32"))
+    return frozenset(_names(body, "linux") - _names(body, platform))
 
 
 def typeshed() -> Path | None:

@@ -73,3 +73,39 @@ def test_a_processor_that_cannot_be_tried_is_told_at_once(
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
     assert done.returncode == status and said in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("there", "said"),
+    [
+        (["wine"], "windows quick"),
+        (["apt-get"], "windows quick"),  # which .ci/windows calls
+        ([], "skipped: wine is not installed, and cannot be from here"),
+    ],
+)
+def test_windows_is_tried_where_wine_can_be_had(source_tree, tmp_path, there, said):
+    script = (source_tree / ".ci" / "run").read_text("utf-8")
+    part = script[script.index('step "Windows"') : script.index('step "passed')]
+    programs = {"id": "echo 0", **dict.fromkeys(there, "exit 1")}
+    programs |= {".ci/find_python": "exit 0", ".ci/windows": 'echo "windows $1"'}
+    (tmp_path / ".ci").mkdir()
+    for name, text in programs.items():
+        (tmp_path / name).write_text(f"#!/bin/bash\n{text}\n")
+        (tmp_path / name).chmod(0o755)
+    start = "set -euo pipefail; started=0; step() { :; }; fail() { exit 1; }\n"
+    command = ["/bin/bash", "-c", start + part]
+    done = subprocess.run(
+        command, cwd=tmp_path, env={"PATH": str(tmp_path)}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith(said)
+
+
+def test_the_site_is_made_with_what_read_the_docs_installs(source_tree):
+    script = (source_tree / ".ci" / "run").read_text("utf-8")
+    assert '"$work/first/bin/sphinx-build" -W' in script
+    into = [
+        line for line in script.splitlines() if line.startswith('"$work/first/bin/pip" install')
+    ]
+    assert [line.split()[-1] for line in into] == ["docs/requirements.txt"]
+    assert "requirements: docs/requirements.txt" in (source_tree / ".readthedocs.yaml").read_text()

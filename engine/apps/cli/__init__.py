@@ -20,6 +20,8 @@ from .usage import UsageError
 INTERRUPTED = 130
 #: Exit status of an interrupted program: this plus the signal's number, as in shells.
 ENDED_BY_SIGNAL = 128
+#: What Python's streams do by default about letters that they cannot encode: they raise.
+_RAISING = ("strict", "surrogateescape")
 
 
 def main(argv: list[str] | None = None, begin: Callable[[], None] | None = None) -> int:
@@ -40,6 +42,7 @@ def main(argv: list[str] | None = None, begin: Callable[[], None] | None = None)
     # NumPy's linear algebra, which is not used here, would start a thread for each CPU.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _replace_closed_streams()
+    _escape_missing_letters()
     return _run(sys.argv[1:] if argv is None else argv, begin)
 
 
@@ -48,6 +51,17 @@ def _replace_closed_streams() -> None:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+
+
+def _escape_missing_letters() -> None:
+    """Print letters that a stream's encoding lacks as ``\\xb2``, as Python's standard error does.
+
+    Redirected output has the code page of Windows, which may lack letters of the help. A handler
+    that the user names, as in ``PYTHONIOENCODING=:replace``, stands.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if getattr(stream, "errors", None) in _RAISING and hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections import Counter
 
 from ....base.files.making_folders import make_folder_of
@@ -22,7 +21,6 @@ _ORDER = (PASSED, NEW, DELETED, CHANGED, FAILED)
 
 def diff(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    sys.stdout.reconfigure(errors="backslashreplace")
     if STANDARD_OUTPUT in (args.report, args.json, args.junit):
         raise UsageError("standard output takes the list of pictures: name a file, not -")
     if args.from_json is not None:

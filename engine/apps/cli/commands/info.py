@@ -25,7 +25,6 @@ from ..usage import UsageError
 
 def info(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    sys.stdout.reconfigure(errors="backslashreplace")
     if args.system == bool(args.models):
         raise UsageError("say which MODEL, or --system alone")
     if args.system:

@@ -1,12 +1,13 @@
 """What shells complete with the scripts that ``engine3d completion`` prints."""
 
+import re
 import shutil
 import subprocess
 
 import pytest
 
 from engine3d.apps.cli import main
-from engine3d.apps.cli.commands.completion import command_list
+from engine3d.apps.cli.commands.completion import SCRIPTS, command_list
 from engine3d.apps.cli.parser import make_parser
 
 
@@ -72,3 +73,56 @@ def test_zsh_takes_the_script(tmp_path, capsys):
     setup = "autoload -U compinit; compinit -u -D\n"
     out = run("zsh", f"{setup}{code}\nprint $_comps[engine3d]; whence -w _engine3d", tmp_path)
     assert out[:2] == ["_engine3d", "_engine3d: function"]
+
+
+def test_every_shell_can_be_chosen():
+    shell = next(a for a in make_parser().commands["completion"]._actions if a.dest == "shell")
+    assert tuple(shell.choices) == tuple(SCRIPTS)
+
+
+def quoted(line):
+    return re.findall(r"'((?:[^']|'')*)'", line)
+
+
+def test_powershell_lists_every_command_option_and_value(capsys):
+    code = script("powershell", capsys)
+    assert code.isascii()  # it passes through the code page of a console
+    lines = [line.strip() for line in code.splitlines()]
+    first, *commands = command_list(make_parser())
+    names = [name for option in first.options for name in option.names]
+    assert quoted(lines[lines.index("} else {") - 1]) == [one.name for one in commands] + names
+    cases = {cells[0]: cells[1:] for cells in map(quoted, lines) if len(cells) > 0}
+    for command in commands:
+        names = [name for option in command.options for name in option.names]
+        assert cases[command.name] == ["-", *names, *command.words]
+        for option in command.options:
+            for name in option.names:
+                case = cases.get(f"{command.name} {name}")
+                if option.value is None or option.optional:
+                    assert case is None
+                else:
+                    assert case == list(option.value if isinstance(option.value, tuple) else ())
+
+
+def test_powershell_script_is_balanced(capsys):
+    code = re.sub(r"'(?:[^']|'')*'", "''", script("powershell", capsys))
+    for opening, closing in ("{}", "()"):
+        depth = 0
+        for letter in code:
+            depth += (letter == opening) - (letter == closing)
+            assert depth >= 0
+        assert depth == 0
+
+
+def test_powershell_completes(tmp_path, capsys):
+    (tmp_path / "model.obj").touch()
+    code = script("powershell", capsys)
+    for line, expected in (
+        ("ren", "render"),
+        ("--ver", "--version"),
+        ("render --turn", "--turntable"),
+        ("run --mode n", "normal"),
+        ("completion z", "zsh"),
+    ):
+        call = f"(TabExpansion2 'engine3d {line}' {9 + len(line)}).CompletionMatches.CompletionText"
+        assert list(filter(None, run("pwsh", f"{code}\n{call}", tmp_path))) == [expected]

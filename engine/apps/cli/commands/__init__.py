@@ -71,7 +71,8 @@ def _add_info(command: argparse.ArgumentParser) -> None:
 
 
 def _add_completion(command: argparse.ArgumentParser) -> None:
-    command.add_argument("shell", choices=("bash", "zsh", "fish"), help="which shell")
+    shells = ("bash", "zsh", "fish", "powershell")
+    command.add_argument("shell", choices=shells, help="which shell")
 
 
 def _add_plugins(command: argparse.ArgumentParser) -> None:
@@ -189,7 +190,8 @@ COMMANDS = {
     "completion": Command(
         "print what lets a shell complete commands and options",
         "Print a script for a shell. To try it: source <(engine3d completion bash), the same with "
-        "zsh, or engine3d completion fish | source.",
+        "zsh, engine3d completion fish | source, or engine3d completion powershell | Out-String | "
+        "Invoke-Expression.",
         _add_completion,
         is_quiet=False,
     ),

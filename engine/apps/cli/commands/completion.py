@@ -1,12 +1,12 @@
 """``engine3d completion``: prints a shell script that completes commands, options and values.
 
-In: the parser, which defines them all. Out: a script for bash, zsh or fish.
+In: the parser, which defines them all. Out: a script for bash, zsh, fish or PowerShell.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 FILE_METAVARS = ("FILE", "FILE|NAME", "MODEL", "IN", "OUT")
@@ -221,4 +221,61 @@ def _fish_option(option: Option) -> str:
     return " ".join(parts)
 
 
-SCRIPTS = {"bash": bash_script, "zsh": zsh_script, "fish": fish_script}
+# PowerShell
+
+
+def powershell_script(listed: list[Command]) -> Iterator[str]:
+    """Yield the lines of a script for PowerShell, which itself adds files where there are none."""
+    first, *commands = listed
+    names = (command.name for command in commands)
+    yield "# engine3d completion for PowerShell"
+    yield "Register-ArgumentCompleter -Native -CommandName engine3d -ScriptBlock {"
+    yield "    param($word, $line)"
+    yield "    $before = @($line.CommandElements | ForEach-Object { $_.ToString() })"
+    yield "    if ($word) { $before = @($before | Select-Object -SkipLast 1) }"
+    yield "    $words = if ($before.Count -lt 2) {"
+    yield f"        {_powershell_list([*names, *_names(first).split()])}"
+    yield "    } else {"
+    yield '        switch -CaseSensitive ($before[1] + " " + $before[-1]) {'
+    for command in commands:
+        yield from _powershell_values(command)
+    yield "            default {"
+    yield "                switch -CaseSensitive ($before[1]) {"
+    for command in commands:
+        options = _powershell_list(_names(command).split())
+        words = _powershell_list(command.words)
+        choice = f"if ($word.StartsWith('-')) {{ {options} }} else {{ {words} }}"
+        yield f"                    {_powershell_quoted(command.name)} {{ {choice} }}"
+    yield "                }"
+    yield "            }"
+    yield "        }"
+    yield "    }"
+    yield "    $words | Where-Object { $_ -and $_.StartsWith($word) }"
+    yield "}"
+
+
+def _powershell_values(command: Command) -> Iterator[str]:
+    """Yield the completion of option values of a command."""
+    for option in command.options:
+        if option.value is None or option.optional:
+            continue
+        words = option.value if isinstance(option.value, tuple) else ()
+        for name in option.names:
+            place = _powershell_quoted(f"{command.name} {name}")
+            yield f"            {place} {{ {_powershell_list(words)} }}"
+
+
+def _powershell_list(words: Iterable[str]) -> str:
+    return ", ".join(map(_powershell_quoted, words))
+
+
+def _powershell_quoted(text: str) -> str:
+    return "'" + text.replace("'", "''") + "'"
+
+
+SCRIPTS = {
+    "bash": bash_script,
+    "zsh": zsh_script,
+    "fish": fish_script,
+    "powershell": powershell_script,
+}

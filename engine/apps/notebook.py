@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import base64
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -250,7 +250,7 @@ class _Page:
             return []
         down, held = event["type"] == "pointer_down", event["modifiers"]
         self._mouse = self._place(event)
-        shift, control = "Shift" in held, "Control" in held
+        shift, control = "Shift" in held, _holds_control(held)
         return [events.MouseButton(button, down, shift, control, *self._mouse)]
 
     def _double_click(self, event: dict) -> list:
@@ -272,13 +272,18 @@ class _Page:
         if event["type"] == "key_up":
             return [events.KeyUp(key, key)]
         held = event["modifiers"]
-        return [events.KeyDown(key, key, "Shift" in held, "Control" in held)]
+        return [events.KeyDown(key, key, "Shift" in held, _holds_control(held))]
 
     def _typed(self, event: dict) -> list:
         return [events.TextEntered(event["data"])] if event.get("data") else []
 
     def _left(self, event: dict) -> list:
         return [events.MouseLeft()]
+
+
+def _holds_control(held: Sequence[str]) -> bool:
+    # The browser may run on macOS, wherever this process does: "Meta" is Cmd there.
+    return "Control" in held or "Meta" in held
 
 
 _TRANSLATIONS = {

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..errors import InvalidArgumentError
 from .catalogue import Catalogue
+from .command_key import with_command_key
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
@@ -146,6 +147,7 @@ def translated_number(number: float, spec: str = "", /) -> str:
 
 def translated_keys(keys: str) -> str:
     """Return keys such as ``"Ctrl+Shift+Z"`` by the names on keyboards of the chosen language."""
+    keys = with_command_key(keys)
     if _chosen is None:
         return keys
     # The last one may be the plus itself.

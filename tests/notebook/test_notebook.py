@@ -137,6 +137,10 @@ def test_what_cannot_be_shown_is_an_error():
             [events.MouseButton("right", True, False, True, 1, 2)],
         ),
         (
+            {"type": "key_down", "key": "o", "modifiers": ("Meta",)},
+            [events.KeyDown("O", "O", False, True)],
+        ),
+        (
             {"type": "double_click", "x": 1, "y": 2},
             [events.MouseButton("left", down, x=1, y=2, clicks=2) for down in (True, False)],
         ),

@@ -100,6 +100,14 @@ def test_keys_have_the_names_of_the_keyboard(keys, french):
         assert translated_keys(keys) == french
 
 
+def test_keys_of_macos_are_those_with_cmd(monkeypatch):
+    monkeypatch.setattr("sys.platform", "darwin")
+    assert translated_keys("Ctrl+Shift+Z") == "Cmd+Shift+Z"
+    assert translated_keys("Ctrl+M") == "Ctrl+M"  # Cmd+M is the system's
+    with speaking("fr"):
+        assert translated_keys("Ctrl+Shift+Z") == "Cmd+Maj+Z"
+
+
 def test_a_language_without_a_catalogue_is_refused():
     with pytest.raises(InvalidArgumentError, match="one of en, fr, not 'xx'"), speaking("xx"):
         pass

@@ -45,6 +45,20 @@ def test_a_key_has_modifiers_and_repeats():
     assert translate(event) == events.KeyDown("W", "W", True, True, True)
 
 
+@pytest.mark.parametrize(("system", "is_control"), [("darwin", True), ("linux", False)])
+def test_cmd_counts_as_control_on_macos(monkeypatch, system, is_control):
+    monkeypatch.setattr("sys.platform", system)
+    translator = Translator()
+    down = key_event(sdl2.SDL_KEYDOWN, sdl2.SDLK_o, sdl2.SDL_SCANCODE_O, sdl2.KMOD_LGUI)
+    assert translator.translate(down) == events.KeyDown("O", "O", False, is_control)
+    press = sdl2.SDL_Event()
+    press.type = sdl2.SDL_MOUSEBUTTONDOWN
+    press.button.button = sdl2.SDL_BUTTON_LEFT
+    assert translator.translate(press).control == is_control
+    down.key.keysym.mod = sdl2.KMOD_RCTRL
+    assert translator.translate(down).control
+
+
 def test_a_key_comes_up():
     event = key_event(sdl2.SDL_KEYUP, sdl2.SDLK_LEFT, sdl2.SDL_SCANCODE_LEFT)
     assert translate(event) == events.KeyUp("Left", "Left")

@@ -45,7 +45,7 @@ class KeyDown:
     position : str
         Where it is: what the key there types on a US keyboard. WASD by position are ZQSD on AZERTY.
     shift, control : bool
-        Whether these are held.
+        Whether these are held; on macOS, Cmd counts as Ctrl.
     repeat : bool
         Whether the key was down already.
     """
@@ -81,7 +81,7 @@ class MouseButton:
     button : {"left", "middle", "right"}
     down : bool
     shift, control : bool
-        Whether these keys are held.
+        Whether these keys are held; on macOS, Cmd counts as Ctrl.
     x, y : int
         Where, in pixels of the picture that the window shows, from its top left corner.
     clicks : int

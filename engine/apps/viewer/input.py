@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ...base.command_key import has_cmd
 from ..events import (
     CloseRequested,
     Exposed,
@@ -116,8 +117,12 @@ def _key(sdl2, event, down: bool):
     if not down:
         return KeyUp(key, position)
     shift = bool(symbol.mod & sdl2.KMOD_SHIFT)
-    control = bool(symbol.mod & sdl2.KMOD_CTRL)
+    control = _holds_control(sdl2, symbol.mod)
     return KeyDown(key, position, shift, control, bool(event.repeat))
+
+
+def _holds_control(sdl2, modifiers: int) -> bool:
+    return bool(modifiers & (sdl2.KMOD_CTRL | (sdl2.KMOD_GUI if has_cmd() else 0)))
 
 
 def _button(sdl2, event, down: bool, modifiers: int, place: Place):
@@ -128,7 +133,7 @@ def _button(sdl2, event, down: bool, modifiers: int, place: Place):
     }
     if event.button not in names:
         return None
-    shift, control = bool(modifiers & sdl2.KMOD_SHIFT), bool(modifiers & sdl2.KMOD_CTRL)
+    shift, control = bool(modifiers & sdl2.KMOD_SHIFT), _holds_control(sdl2, modifiers)
     x, y = place(event.x, event.y)
     return MouseButton(names[event.button], down, shift, control, x, y, max(event.clicks, 1))
 

@@ -1,6 +1,7 @@
 """What keys do in the editor: to the scene, to names, to time, and to questions."""
 
 import functools
+from types import SimpleNamespace
 
 import pytest
 from editor.ui.editor_hands import click, do, find, press, scene_corner, settle
@@ -8,6 +9,7 @@ from editor.ui.editor_hands import click, do, find, press, scene_corner, settle
 import engine3d as e3d
 from engine3d import events
 from engine3d.apps.editor.scene_state import SceneState
+from engine3d.apps.editor.ui.keys_window import KeysWindow
 
 
 def test_keys_duplicate_delete_and_undo(editor):
@@ -40,6 +42,40 @@ def test_keys_that_come_at_once_count_one_after_the_other(editor):
         editor.turn(0.0)
     assert editor.workspace.wants_exit
     assert len(nodes) > 1 and editor.workspace.document.selection.nodes == ()
+
+
+@pytest.fixture
+def on_macos(monkeypatch):
+    monkeypatch.setattr("engine3d.base.command_key.sys", SimpleNamespace(platform="darwin"))
+
+
+@pytest.mark.parametrize("name", ["Left GUI", "Right GUI", "Left Ctrl", "Right Ctrl"])
+def test_cmd_and_control_are_held_for_commands_on_macos(on_macos, editor, name):
+    from imgui_bundle import imgui
+
+    count = len(editor.workspace.scene.nodes)
+    editor.workspace.document.selection.set([find(editor, "Cab")])
+    do(editor, events.KeyDown(name, name, False, True))
+    assert imgui.get_io().key_ctrl and not imgui.get_io().key_super
+    do(editor, events.KeyDown("D", "D", False, True), events.KeyUp("D", "D"))
+    assert len(editor.workspace.scene.nodes) == count + 1
+    do(editor, events.KeyUp(name, name))
+    assert not imgui.get_io().key_ctrl and not imgui.get_io().key_super
+
+
+def test_the_windows_key_is_not_control_elsewhere(editor):
+    count = len(editor.workspace.scene.nodes)
+    editor.workspace.document.selection.set([find(editor, "Cab")])
+    do(editor, events.KeyDown("Left GUI", "Left GUI"))
+    press(editor, "D")
+    assert len(editor.workspace.scene.nodes) == count
+
+
+def test_the_list_of_keys_names_cmd_on_macos(on_macos, editor):
+    shown = [" ".join(row) for row in KeysWindow(editor.workspace, editor._entries)._shown_rows()]
+    assert any(row.startswith("Cmd+Shift+Z ") for row in shown)
+    assert any(row.startswith("Cmd while a handle is dragged ") for row in shown)
+    assert [row for row in shown if "Ctrl" in row] == ["Ctrl+M New material Edit"]
 
 
 def test_f2_renames(editor):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
+from ....base.command_key import has_cmd
 from ... import events
 from ...viewer.window import Window
 
@@ -49,6 +50,19 @@ _MODIFIERS = {
     "Left Alt": ("left_alt", "mod_alt"),
     "Right Alt": ("right_alt", "mod_alt"),
 }
+# ImGui, as it behaves on macOS, takes Cmd (its "super") for Ctrl, and Ctrl for Cmd. Both are Ctrl
+# here, since the system takes some keys with Cmd.
+_OF_MACOS = {
+    "Left GUI": ("left_super", "mod_super"),
+    "Right GUI": ("right_super", "mod_super"),
+    "Left Ctrl": ("left_super", "mod_super"),
+    "Right Ctrl": ("right_super", "mod_super"),
+}
+
+
+def _modifiers() -> dict[str, tuple[str, str]]:
+    """Return ImGui's names of modifier keys by our positions: of the key, and of what it does."""
+    return _MODIFIERS | _OF_MACOS if has_cmd() else _MODIFIERS
 
 
 def _keys() -> dict[str, imgui.Key]:
@@ -59,7 +73,7 @@ def _keys() -> dict[str, imgui.Key]:
     names.update({digit: f"_{digit}" for digit in _DIGITS})
     names.update({f"Keypad {digit}": f"keypad{digit}" for digit in _DIGITS})
     names.update({f"F{number}": f"f{number}" for number in range(1, 13)})
-    names.update({name: key for name, (key, _) in _MODIFIERS.items()})
+    names.update({name: key for name, (key, _) in _modifiers().items()})
     return {name: getattr(imgui.Key, key) for name, key in names.items()}
 
 
@@ -73,7 +87,9 @@ class ImguiInput:
 
     def __init__(self, window: Window) -> None:
         self._window = window
-        self._keys = _keys()
+        self._modifiers, self._keys = _modifiers(), _keys()
+        self._control = getattr(imgui.Key, self._modifiers["Left Ctrl"][1])
+        imgui.get_io().config_mac_osx_behaviors = has_cmd()
         self._pointer = ""
         shapes = imgui.MouseCursor_
         self._shapes = {
@@ -119,10 +135,10 @@ class ImguiInput:
 
     def _feed_key(self, io, event, down: bool) -> None:
         if isinstance(event, events.KeyDown):  # this event also reports keys pressed elsewhere
-            io.add_key_event(imgui.Key.mod_ctrl, event.control)
+            io.add_key_event(self._control, event.control)
             io.add_key_event(imgui.Key.mod_shift, event.shift)
-        if event.position in _MODIFIERS:
-            io.add_key_event(getattr(imgui.Key, _MODIFIERS[event.position][1]), down)
+        if event.position in self._modifiers:
+            io.add_key_event(getattr(imgui.Key, self._modifiers[event.position][1]), down)
         # The row of digits counts by its places: on AZERTY, it types "&é'(-" and so on.
         is_digit = event.position in _DIGITS
         key = None if is_digit else self._keys.get(event.key)
@@ -151,12 +167,12 @@ def of_one_picture(happened: list, holds: bool = False) -> tuple[list, list]:
     holds : bool
         Whether what is typed waits.
     """
-    pressed = False
+    pressed, modifiers = False, _modifiers()
     for number, event in enumerate(happened):
         if holds and isinstance(event, events.KeyDown | events.TextEntered):
             return happened[:number], happened[number:]
         if isinstance(event, events.KeyDown | events.KeyUp):
-            modifies = event.position in _MODIFIERS
+            modifies = event.position in modifiers
             if modifies and pressed:
                 return happened[:number], happened[number:]
             if isinstance(event, events.KeyDown) and not modifies:

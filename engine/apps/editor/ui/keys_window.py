@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from ....base.command_key import with_command_key
 from ....base.language import translated, translated_keys
 from .middle import place_large
 from .translated_imgui import imgui
@@ -44,6 +45,11 @@ KEYBOARD = (
     ("Esc on a field", "leave it: Space plays again"),
     ("Up, Down in a file dialog", "choose a file or folder; Enter opens it, Alt+Up goes above"),
 )
+
+
+def _of_keys(text: str) -> str:
+    """Return a text that may name keys, as this system and the language name them."""
+    return with_command_key(translated(text))
 
 
 class KeysWindow:
@@ -84,9 +90,9 @@ class KeysWindow:
     def _shown_rows(self) -> Iterator[tuple[str, str, str]]:
         """Yield keys, what they do and their headings, as they are shown."""
         for keys, text in MOUSE:
-            yield translated(keys), translated(text), translated("Mouse")
+            yield _of_keys(keys), _of_keys(text), translated("Mouse")
         for keys, text in KEYBOARD:
-            yield translated(keys), translated(text), translated("Keyboard")
+            yield _of_keys(keys), _of_keys(text), translated("Keyboard")
         for keys, text, heading in self._rows:
             yield translated_keys(keys), translated(text), translated(heading)
 

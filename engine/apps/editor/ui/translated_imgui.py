@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui as _imgui
 
+from ....base.command_key import with_command_key
 from ....base.language import translated, translated_keys
 from ....base.line_breaks import unbroken
 
@@ -76,7 +77,7 @@ def _labelled(function):
 def _remarking(function):
     @functools.wraps(function)
     def call(text):
-        return function(unbroken(translated(text)))
+        return function(unbroken(with_command_key(translated(text))))
 
     return call
 

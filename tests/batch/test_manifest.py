@@ -101,6 +101,14 @@ WRONG = [
     ({**MODEL, "outputs": ["disparity"]}, "tasks[1].outputs[0]: outputs must be one of 'color'"),
     ({**MODEL, "outputs": "color"}, "outputs must be a list of texts"),
     ({**MODEL, "outputs": ["color", "color.jpg"]}, "outputs must name some outputs, none twice"),
+    (
+        {**MODEL, "name": "FIRST"},
+        "names that are one on Windows and macOS, 'first' and",
+    ),
+    (
+        {**MODEL, "name": "aux.1"},
+        "tasks[1].name: name must name files of every system: 'aux",
+    ),
     ({**MODEL, "name": "../up"}, "tasks[1].name: name must be made of letters"),
     ({**MODEL, "name": "a/.b"}, "tasks[1].name: name must be made of letters"),
     ({**MODEL, "name": 4}, "tasks[1].name: 4 is not a text"),

@@ -349,6 +349,24 @@ def test_wrong_arguments_are_errors(tasks, tmp_path, arguments, message):
         run(tasks, tmp_path / "out", **arguments)
 
 
+@pytest.mark.parametrize(("one", "other"), [("Chair", "chair"), ("\u00e9", "\u00c9")])
+def test_names_that_some_system_takes_for_one_are_used_once(tmp_path, one, other):
+    tasks = [Task(name=f"a/{name}1", model="a.obj") for name in (one, other)]
+    with pytest.raises(e3d.InvalidArgumentError, match="one on Windows and macOS, 'a/"):
+        run(tasks, tmp_path / "out")
+
+
+@pytest.mark.parametrize("name", ["con", "aux.1", "COM1", "a/nul", "lpt1/a", "a./b", "a /b"])
+def test_names_are_files_of_every_system(name):
+    with pytest.raises(e3d.InvalidArgumentError, match="name must name files of every system"):
+        Task(name=name, model="a.obj")
+
+
+def test_names_that_only_look_like_devices_stand():
+    for name in ("console", "com", "a.con", "con_1", "v1.", "a "):
+        assert Task(name=name, model="a.obj").name == name
+
+
 def test_names_are_used_once(tmp_path):
     tasks = [Task(name="a", model="a.obj"), Task(name="a", model="b.obj")]
     with pytest.raises(e3d.InvalidArgumentError, match="two tasks have the name 'a'"):

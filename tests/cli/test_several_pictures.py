@@ -63,6 +63,17 @@ def test_folders_with_variables_in_their_names_are_made(model, tmp_path):
     assert (tmp_path / "square" / time.strftime("%Y") / "001.png").exists()
 
 
+def test_outputs_that_some_system_takes_for_one_are_not_written(tmp_path, capsys, model):
+    (tmp_path / "below").mkdir()
+    for name in ("Chair.obj", "below/chair.obj"):
+        (tmp_path / name).write_text(OBJ)
+    files = ["render", "Chair.obj", "below/chair.obj", *FAST, "-o"]
+    assert main([*files, "{model}.png"]) == 2
+    said = "chair.png would be written twice, as Chair.png on Windows and macOS; add {folder}"
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.png"))
+
+
 def test_the_tree_of_models_becomes_a_tree_of_pictures(folder, tmp_path, capsys):
     """`{folder}` is empty in the innermost folder that holds all that was given."""
     (folder / "below" / "b.obj").write_text(OBJ)  # another of that name

@@ -299,6 +299,25 @@ def test_samples_come_in_order(make_samples, tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("names", "told"),
+    [
+        (("a", "a"), "files of two pictures have the name 'color/a.png'"),
+        (("a", "A"), "names that are one on Windows and macOS, 'color/a.png' and 'color/A.png'"),
+        (("a", "nul"), "'nul.png' is a device on Windows"),
+        (("a", "b:c"), "Windows allows no ':' in 'b:c.png'"),
+    ],
+)
+def test_no_file_replaces_another_on_any_system(make_samples, tmp_path, names, told):
+    writer = FolderWriter(["color"])
+    samples = drawn(make_samples, writer, 2)
+    for sample, name in zip(samples, names, strict=True):
+        sample.name = name
+    with pytest.raises(e3d.InvalidArgumentError, match=told):
+        write_dataset(tmp_path, writer, samples)
+    assert [path.name for path in tmp_path.rglob("*.*")] == ["a.png"]
+
+
+@pytest.mark.parametrize(
     "make",
     [
         lambda: FolderWriter(["colour"]),

@@ -221,6 +221,20 @@ def test_shared(golden, backend):
     result.stdout.fnmatch_lines(["*AssertionError: test_a/shared: two calls gave different *"])
 
 
+def test_names_that_some_system_takes_for_one_may_not_disagree(run):
+    code = """
+@pytest.mark.parametrize("name, backend", [("Chair", 0), ("chair", {})])
+def test_shared(golden, name, backend):
+    golden(picture(backend), name)
+"""
+    run(code.format(0), "--golden-update").assert_outcomes(passed=2)
+    for path in run.folder.glob("*.png"):
+        path.unlink()
+    result = run(code.format(1), "--golden-update")
+    result.assert_outcomes(passed=1, failed=1)
+    result.stdout.fnmatch_lines(["*AssertionError: test_a/chair: two calls gave different *"])
+
+
 def test_allowances(run):
     write_png(run.folder / "a.png", DRAWN)
     code = """

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.files.portable_names import folded
 from ...base.plugins.discovery import leaving_out
 from ...base.plugins.participants import participants
 from ...base.warning_scopes import gathered
@@ -191,7 +192,7 @@ class Drawer:
         files, note = _described(sample, writer)
         for end, data in said.files.items():
             path = writer.beside(sample, end)
-            if path in files:
+            if folded(path) in map(folded, files):
                 raise InvalidArgumentError(f"{path} is written twice: it is an output")
             files[path] = data
         write_picture(out, task, task.key(writer), inputs, files, note, blank)

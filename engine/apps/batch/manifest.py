@@ -13,6 +13,7 @@ from dataclasses import fields
 from typing import Any, NamedTuple
 
 from ...base.calls import checks_types
+from ...base.files.portable_names import common_name, folded
 from ...errors import InvalidArgumentError
 from ...io.reading.json_values import JsonValue, parsed_json
 from ...io.reading.sources import read_source
@@ -199,10 +200,11 @@ def _task(entry: JsonValue, values: dict[str, Value], index: int, folder: str) -
     return task
 
 
-def _check_name(entry: JsonValue, name: str, names: dict[str, str]) -> None:
-    if name in names:
+def _check_name(entry: JsonValue, name: str, names: dict[str, tuple[str, str]]) -> None:
+    if (key := folded(name)) in names:
+        other, where = names[key]
         raise entry.error(
-            f"two tasks have the name {name!r}, the other is of {names[name]}: give each a "
+            f"two tasks have {common_name(name, other)}, the other is of {where}: give each a "
             '"name", such as "{model}_{index}"'
         )
-    names[name] = entry.where
+    names[key] = name, entry.where

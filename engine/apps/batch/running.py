@@ -23,6 +23,7 @@ from ...base.calls import checks_types
 from ...base.files.atomic_write import LEFT_BEHIND, checked_path
 from ...base.files.hashing import hash_of_file
 from ...base.files.making_folders import make_folder_of
+from ...base.files.portable_names import common_name, folded
 from ...base.numbers import real, shown
 from ...base.plugins.discovery import are_on
 from ...base.system import next_in
@@ -137,13 +138,15 @@ def run(
 
 def _numbered(tasks: Iterable[Task]) -> list[Task]:
     """Yield the tasks with their positions as indices."""
-    numbered, names = [], set()
+    numbered: list[Task] = []
+    names: dict[str, str] = {}
     for index, task in enumerate(tasks):
         if not isinstance(task, Task):
             raise InvalidArgumentError(f"tasks must be Tasks, not {type(task).__name__}")
-        if task.name in names:
-            raise InvalidArgumentError(f"two tasks have the name {task.name!r}")
-        names.add(task.name)
+        other = names.get(key := folded(task.name))
+        if other is not None:
+            raise InvalidArgumentError(f"two tasks have {common_name(task.name, other)}")
+        names[key] = task.name
         numbered.append(task if task.index == index else replace(task, index=index))
     return numbered
 

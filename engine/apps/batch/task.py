@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any, get_args
 
 from ...base.calls import checks_types
+from ...base.files.portable_names import fault_of
 from ...base.image_size import check_size
 from ...base.numbers import shown
 from ...base.validation import choose, flag
@@ -192,6 +193,9 @@ def _name(value: Any) -> str:
             f"name must be made of letters, digits and _ . + - @ = , or spaces, with / between "
             f"folders, each beginning with a letter or digit, not {shown(value)}"
         )
+    # Of the files: their names go on with an ending.
+    if (fault := fault_of(f"{value}.png")) is not None:
+        raise InvalidArgumentError(f"name must name files of every system: {fault}")
     return value
 
 

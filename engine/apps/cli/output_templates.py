@@ -10,8 +10,9 @@ from __future__ import annotations
 import os
 import re
 import time
-from collections.abc import Sequence
+from collections.abc import Container
 
+from ...base.files.portable_names import folded
 from ...io.output.frame_names import FRAME_NUMBER, FrameName, joined_name
 from ...version import __version__
 from .usage import UsageError
@@ -33,7 +34,7 @@ def names_the_model(output: str | None) -> bool:
 
 
 def fill(
-    output: str | None, model: str, taken: Sequence = (), folder: str = ""
+    output: str | None, model: str, taken: Container[str] = (), folder: str = ""
 ) -> FrameName | None:
     """Return a name with its variables filled in.
 
@@ -43,8 +44,8 @@ def fill(
         None stays.
     model : str
         Path of the model, or what is shown instead.
-    taken : sequence of str
-        Names that are not free though no file bears them yet.
+    taken : container of str
+        Names that are not free though no file bears them yet, each as `folded` returns it.
     folder : str
         The model's folder, relative to the one that was given; empty in that folder itself.
 
@@ -72,7 +73,7 @@ def fill(
         return _filled(pieces, said, 0)
     for number in range(1, _MOST_NUMBERS):
         filled = _filled(pieces, said, number)
-        if filled not in taken and not os.path.exists(filled):
+        if folded(filled) not in taken and not os.path.exists(filled):
             return filled
     raise UsageError(f"-o {output}: there are files of all numbers up to {_MOST_NUMBERS - 1:,}")
 

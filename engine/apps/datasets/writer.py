@@ -17,6 +17,7 @@ from ...base.calls import checks_types
 from ...base.files.atomic_write import AtomicFiles
 from ...base.files.json_records import Shape, anything
 from ...base.files.making_folders import make_folder_of
+from ...base.files.portable_names import fault_of
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
 from ...rendering.frame import Output
@@ -69,6 +70,8 @@ def own_files(files: Mapping[str, Content]) -> dict[str, bytes]:
 def contents(folder: str, files: Mapping[str, Content]) -> Iterator[tuple[str, bytes]]:
     """Yield the files to write for a picture: paths in the folder, and bytes."""
     for path, data in files.items():
+        if (fault := fault_of(path)) is not None:
+            raise InvalidArgumentError(f"files of data sets have names for every system: {fault}")
         target = os.path.join(folder, path)
         if isinstance(data, bytes):
             yield target, data

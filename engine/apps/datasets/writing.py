@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from ...base.calls import checks_types
 from ...base.files.atomic_write import AtomicFiles, checked_path
 from ...base.files.making_folders import make_folder_of
+from ...base.files.portable_names import common_name, folded
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
 from .samples import Sample
@@ -41,16 +42,27 @@ def write_dataset(
     InvalidArgumentError, FileAccessError
     """
     root, notes = checked_path(folder), []
+    names: dict[str, str] = {}
     for sample in samples:
         if not isinstance(sample, Sample):
             raise InvalidArgumentError(f"samples must be Samples, not {shown(sample)}")
         if notes and sample.index <= notes[-1].index:
             raise InvalidArgumentError(f"samples come in the order of their index: {sample.index}")
         files, said = writer.describe(sample)
+        _check_distinct(own_files(files), names)
         save_files(root, files)
         notes.append(Note(sample.name, sample.index, list(own_files(files)), said))
     written = [path for note in notes for path in note.files]
     return written + list(writer.finish(root, notes))
+
+
+def _check_distinct(paths: Iterable[str], names: dict[str, str]) -> None:
+    """Raise `InvalidArgumentError` if a file would replace that of an earlier picture."""
+    for path in paths:
+        other = names.get(key := folded(path))
+        if other is not None:
+            raise InvalidArgumentError(f"files of two pictures have {common_name(path, other)}")
+        names[key] = path
 
 
 def save_files(folder: str, files: Mapping[str, Content]) -> None:

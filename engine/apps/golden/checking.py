@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ...base.files.portable_names import folded
 from ...errors import FileFormatError, InvalidArgumentError
 from ...version import PICTURES, __version__
 from . import names
@@ -58,7 +59,7 @@ class Golden:
     failures : callable
         Returns the folder for pictures of what failed; it is asked and made when something does.
     written : dict of str to str
-        The hashes of the golden files that the run has written, by path; it is added to.
+        The hashes of the golden files that the run has written, by folded path; it is added to.
     """
 
     def __init__(
@@ -182,7 +183,7 @@ class Golden:
     def _write(self, case: _Case) -> None:
         __tracebackhide__ = True
         result = case.result
-        if self._written.setdefault(case.path, result.digest) != result.digest:
+        if self._written.setdefault(folded(case.path), result.digest) != result.digest:
             raise AssertionError(f"{result.name}: {TWO_PICTURES}: {case.path}")
         write_golden(case.path, case.pixels, below=self._place.folder)
         result.status, result.expected = UPDATED, case.path

@@ -10,6 +10,7 @@ import hashlib
 import re
 import unicodedata
 
+from ...base.files.portable_names import is_device
 from ...errors import InvalidArgumentError
 
 SUFFIX = ".png"
@@ -18,7 +19,6 @@ _TEST = re.compile(r"(?P<function>\w+)(?:\[(?P<case>.*)\])?", re.S)
 # Matches characters that not every system allows. A name may neither begin nor end with a dot or
 # space.
 _ODD = re.compile(r"[^\w.+=,@ -]")
-_RESERVED = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.I | re.S)
 
 
 def test_name(classes: list[str], test: str, number: int) -> str:
@@ -62,7 +62,7 @@ def _part(text: str) -> str:
     """Return one part of a path: the text, or a similar one with a hash."""
     text = unicodedata.normalize("NFC", text)
     plain = _ODD.sub("_", text)
-    if plain.strip(". ") != plain or _RESERVED.fullmatch(plain):
+    if plain.strip(". ") != plain or is_device(plain):
         plain = "_" + plain.strip(". ")
     encoded = plain.encode("utf-8", "replace")
     if plain == text and len(encoded) <= MAX_LENGTH:

@@ -34,7 +34,7 @@ class Run:
     partial : set of str
         Files of which some tests were left out, or failed in a fixture.
     written : dict of str to str
-        The hashes of the golden files that this process has written, by path.
+        The hashes of the golden files that this process has written, by folded path.
     lines : list of str
         What is said at the end.
     """

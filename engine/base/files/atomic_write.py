@@ -25,7 +25,9 @@ from typing import Any, BinaryIO
 from ...errors import FileAccessError, InvalidArgumentError
 from ..numbers import shown
 from ..system import AT_ONCE, READ_WRITE, WRITE, replace_file, set_mode, sync_folder
+from .portable_names import fault_on_windows
 
+_ON_WINDOWS = os.name == "nt"
 #: Temporary files left by a process that was killed while writing.
 LEFT_BEHIND = re.compile(r"\.(?P<name>.*)\.[0-9a-f]{16}\.part", re.DOTALL)
 
@@ -70,6 +72,8 @@ def checked_path(path: str | bytes | os.PathLike[str]) -> str:
         raise FileAccessError("cannot write: the path holds a zero byte", decoded)
     if "://" in decoded and not os.path.isdir(os.path.dirname(decoded)):
         raise FileAccessError("cannot write to an address: give a path of this machine", decoded)
+    if _ON_WINDOWS and (fault := fault_on_windows(decoded)) is not None:
+        raise FileAccessError(f"cannot write: {fault}", decoded)
     return decoded
 
 

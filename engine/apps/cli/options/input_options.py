@@ -9,9 +9,10 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import BinaryIO, get_args
 
+from ....base.files.portable_names import folded
 from ....choices import ShapesOf
 from ....errors import FileAccessError, FileFormatError
 from ....io.addresses.url_names import is_url
@@ -100,13 +101,18 @@ def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:
         raise UsageError("-o for several models needs a variable, as in -o '{model}.png'")
     top = _common_folder(args.models)
     found: list[argparse.Namespace] = []
+    taken: dict[str, str] = {}
     for name in models:
-        taken = [other.output for other in found]
         job = _job(args, [name], output, taken, _folder_below(top, name))
-        if job.output is not None and job.output in taken:
-            raise UsageError(
-                f"-o {output}: {job.output} would be written twice; add {{folder}} or {{n}}"
-            )
+        if job.output is not None:
+            other = taken.get(key := folded(job.output))
+            if other is not None:
+                same = "" if other == job.output else f", as {other} on Windows and macOS"
+                raise UsageError(
+                    f"-o {output}: {job.output} would be written twice{same}; "
+                    "add {folder} or {n}"
+                )
+            taken[key] = job.output
         found.append(job)
     return found
 
@@ -143,7 +149,7 @@ def _job(
     args: argparse.Namespace,
     models: Sequence[str],
     output: str | None,
-    taken: Sequence = (),
+    taken: Container[str] = (),
     folder: str = "",
 ) -> argparse.Namespace:
     configured = getattr(args, "configured", None)

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, cast
 from ..errors import InvalidArgumentError
 from .catalogue import Catalogue
 from .command_key import with_command_key
+from .system_languages import system_languages
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
@@ -27,7 +28,7 @@ ENGLISH = "en"
 _ENDING = ".po"
 #: Names of the variables that tell the locale of messages, the first one counts.
 _LOCALE = ("LC_ALL", "LC_MESSAGES", "LANG")
-_NO_LOCALE = ("", "C", "POSIX")
+_NO_LOCALE = ("", "C", "POSIX")  # also with an encoding, such as ".UTF-8"
 _KEY = "key"
 
 _chosen: Catalogue | None = None
@@ -40,14 +41,18 @@ def languages() -> tuple[str, ...]:
 
 
 def usual_language(environment: Mapping[str, str] = os.environ) -> str:
-    """Return the language of a locale; English if there is no catalogue for it."""
+    """Return the language of a locale, or of the system's settings where no variable names one.
+
+    It is English if there is no catalogue for it.
+    """
     locale = next(filter(None, (environment.get(name, "") for name in _LOCALE)), "")
-    if locale.partition(".")[0] in _NO_LOCALE:
+    told = [locale] if locale else system_languages()
+    if not told or told[0].partition(".")[0] in _NO_LOCALE:
         return ENGLISH
     # LANGUAGE is a list, and comes before the locale.
-    wanted = (environment.get("LANGUAGE") or locale).split(":")
+    wanted = environment["LANGUAGE"].split(":") if environment.get("LANGUAGE") else told
     known = languages()
-    names = (re.split("[_.@]", name)[0] for name in wanted)
+    names = (re.split("[_.@-]", name)[0] for name in wanted)
     return next((name for name in names if name in known), ENGLISH)
 
 

@@ -1,9 +1,13 @@
 """The language of windows: what chooses it, how long it lasts, what texts and numbers become."""
 
+import ctypes
+import os
+from types import SimpleNamespace
+
 import pytest
 
 from engine3d import InvalidArgumentError
-from engine3d.base import language
+from engine3d.base import language, system_languages
 from engine3d.base.language import (
     languages,
     speaking,
@@ -36,6 +40,49 @@ from engine3d.base.language import (
 )
 def test_the_language_is_that_of_the_locale(environment, expected):
     assert usual_language(environment) == expected
+
+
+@pytest.mark.parametrize(
+    ("number", "expected"), [(0x040C, "fr"), (0x0C0C, "fr"), (0x0407, "en"), (0, "en")]
+)
+def test_windows_tells_the_language_of_its_windows(monkeypatch, number, expected):
+    kernel = SimpleNamespace(GetUserDefaultUILanguage=lambda: number)
+    monkeypatch.setattr("sys.platform", "win32")
+    monkeypatch.setattr(ctypes, "windll", SimpleNamespace(kernel32=kernel), raising=False)
+    assert usual_language({}) == expected
+    assert usual_language({"LANG": "C"}) == "en"
+    assert usual_language({"LANG": "fr_FR.UTF-8"}) == "fr"
+    if number:
+        assert usual_language({"LANGUAGE": "xx:fr"}) == "fr"
+
+
+@pytest.mark.parametrize(
+    ("printed", "status", "expected"),
+    [
+        ('(\n    "fr-CA",\n    "en-CA"\n)\n', 0, "fr"),
+        ('(\n    "de-DE",\n    fr\n)\n', 0, "fr"),
+        ('(\n    "zh-Hans-CN"\n)\n', 0, "en"),
+        ("The domain/default pair does not exist", 1, "en"),
+    ],
+)
+def test_macos_tells_the_languages_of_its_settings(monkeypatch, printed, status, expected):
+    asked = []
+
+    def answer(command, **_):
+        asked.append(command[1:])
+        return SimpleNamespace(stdout=printed, returncode=status)
+
+    monkeypatch.setattr("sys.platform", "darwin")
+    monkeypatch.setattr(system_languages, "subprocess", SimpleNamespace(run=answer))
+    assert usual_language({}) == expected
+    assert usual_language({"LANG": "C.UTF-8"}) == "en"
+    assert asked == [["read", "-g", "AppleLanguages"]]
+
+
+@pytest.mark.skipif(os.path.exists("/usr/bin/defaults"), reason="macOS has it")
+def test_macos_without_its_program_is_english(monkeypatch):
+    monkeypatch.setattr("sys.platform", "darwin")
+    assert usual_language({}) == "en"
 
 
 def test_texts_are_english_but_in_a_block_with_another_language():

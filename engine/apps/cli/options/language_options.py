@@ -18,7 +18,7 @@ def add(parser) -> None:
         f"--{NAME}",
         choices=languages(),
         help=f"of the texts in the window: {', '.join(others)} or {last} (default: that of the "
-        "locale, if it is one of these, or else en)",
+        "locale or the system, if it is one of these, or else en)",
     )
 
 

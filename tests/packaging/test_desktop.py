@@ -95,6 +95,24 @@ def test_the_thumbnailers_command_draws_a_thumbnail(desktop, tmp_path):
     assert drawn.getpixel((48, 48))[3] == 255
 
 
+def test_the_page_tells_how_files_of_a_virtual_environment_are_found(source_tree, tmp_path):
+    """The page's own command copies what a wheel puts below an environment's prefix."""
+    bash = shutil.which("bash") or pytest.skip("needs bash")
+    page = (source_tree / "docs" / "viewer" / "files.md").read_text(encoding="utf-8")
+    command = next(line.strip() for line in page.splitlines() if line.startswith("    cp -r"))
+    wanted = runpy.run_path(str(source_tree / "setup.py"))["DESKTOP_FILES"]
+    environment, home = tmp_path / "an environment", tmp_path / "home"
+    for path in ("bin/engine3d", *(f"{folder}/{name}" for folder, name in wanted.items())):
+        (environment / path).parent.mkdir(parents=True, exist_ok=True)
+        (environment / path).touch()
+    for folder in ("bin", "share"):
+        (home / ".local" / folder).mkdir(parents=True)
+    (home / ".local/bin/engine3d").symlink_to(environment / "bin/engine3d")
+    subprocess.run([bash, "-c", command], env={**os.environ, "HOME": str(home)}, check=True)
+    for folder, name in wanted.items():
+        assert (home / ".local" / folder / name).exists()
+
+
 def test_the_system_tells_the_types_of_models(desktop, make, tmp_path):
     update = shutil.which("update-mime-database") or pytest.skip("needs update-mime-database")
     gio = shutil.which("gio") or pytest.skip("needs gio")

@@ -24,6 +24,7 @@ _TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK, 0)
 # errors of file systems that cannot sync
 _NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)
 _SHORT = 0.5  # seconds
+_LONGEST_ANSWER = 5.0  # seconds
 # Seconds to try again where Windows refuses to replace a file: another program, such as a scanner
 # of viruses, may have it open for a moment.
 _MOMENT = 1.0 if os.name == "nt" else 0.0
@@ -63,6 +64,17 @@ def machine_memory() -> int | None:
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
         return None
+
+
+def answer_of(*command: str) -> str:
+    """Return what a short program of the system prints; nothing if it fails or is not there."""
+    import subprocess
+
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=_LONGEST_ANSWER)
+    except (OSError, subprocess.SubprocessError, UnicodeDecodeError):
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""
 
 
 def ending_signals() -> tuple[Any, ...]:

@@ -7,10 +7,10 @@ first. Other systems tell them by variables, such as ``LANG``.
 from __future__ import annotations
 
 import re
-import subprocess
 import sys
 
-_SECONDS = 5.0
+from .system import answer_of
+
 _NAME = re.compile(r"\w+(?:-\w+)*")
 
 
@@ -33,9 +33,4 @@ def _of_windows() -> list[str]:
 
 def _of_macos() -> list[str]:
     # A short process is simpler than CoreFoundation's lists of its own strings.
-    command = ["/usr/bin/defaults", "read", "-g", "AppleLanguages"]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=_SECONDS)
-    except (OSError, subprocess.SubprocessError):
-        return []
-    return _NAME.findall(done.stdout) if done.returncode == 0 else []
+    return _NAME.findall(answer_of("/usr/bin/defaults", "read", "-g", "AppleLanguages"))

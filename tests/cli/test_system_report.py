@@ -6,10 +6,12 @@ import os
 import platform
 import sys
 from importlib import metadata
+from unittest.mock import Mock
 
 import pytest
 
 import engine3d as e3d
+from engine3d.apps.bench import figures
 from engine3d.apps.cli import main, system_report
 
 pytestmark = pytest.mark.usefixtures("no_screen")
@@ -55,6 +57,38 @@ def test_the_text_says_what_json_says(capsys, monkeypatch):
         found["processor"]["name"],
     ):
         assert part in text
+
+
+@pytest.mark.parametrize(
+    ("system", "brand", "processor", "distribution"),
+    [
+        ("darwin", "Apple M1", "Apple M1", "macOS 14.1"),
+        ("darwin", "", "by Python", "macOS 14.1"),
+        ("win32", "Apple M1", "by Python", "Windows 10.0.22631"),
+        ("freebsd14", "Apple M1", "by Python", None),
+    ],
+)
+def test_each_system_tells_its_name_and_processor(
+    system, brand, processor, distribution, capsys, monkeypatch
+):
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setattr(figures, "CPUINFO", "/nowhere")
+    monkeypatch.setattr(system_report, "CPUINFO", "/nowhere")
+    monkeypatch.setattr(figures, "answer_of", lambda *command: brand)
+    monkeypatch.setattr(platform, "processor", lambda: "by Python")
+    monkeypatch.setattr(platform, "mac_ver", lambda: ("14.1", ("", "", ""), "arm64"))
+    monkeypatch.setattr(platform, "version", lambda: "10.0.22631")
+    monkeypatch.setattr(platform, "freedesktop_os_release", Mock(side_effect=OSError))
+    assert system_report._system()["distribution"] == distribution
+    assert system_report._processor()["name"] == processor
+    assert system_report._processor()["features"] == []
+
+
+def test_a_processor_without_a_name_is_called_by_its_kind(monkeypatch):
+    monkeypatch.setattr(figures, "CPUINFO", "/nowhere")
+    monkeypatch.setattr(platform, "processor", lambda: "")
+    monkeypatch.setattr(platform, "machine", lambda: "riscv64")
+    assert figures.machine()["processor"] == "riscv64"
 
 
 @pytest.mark.parametrize(("version", "is_told"), [("9.5.0", 1), ("12.2.9", 1), ("12.3.0", 0)])

@@ -1,5 +1,6 @@
 """`install` in the place of VTK's drawing, and the entry point, in a process without OpenGL."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -111,3 +112,23 @@ def test_depth_peeling_asks_no_opengl(installed):
     assert pl.enable_depth_peeling()
     assert pl.renderer.GetUseDepthPeeling()
     assert pl.screenshot().shape == (SIZE[1], SIZE[0], 3)
+
+
+@pytest.mark.parametrize(
+    ("system", "is_found", "is_set"),
+    [
+        ("linux", False, True),
+        ("linux", True, False),
+        ("darwin", False, False),
+        ("win32", False, False),
+    ],
+)
+def test_opengl_is_missing_on_linux_alone(monkeypatch, system, is_found, is_set):
+    from engine3d.compat.pyvista import _windows
+
+    monkeypatch.delenv(_windows.VARIABLE, raising=False)
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setattr(_windows, "_is_found", lambda name: is_found)
+    _windows.prefer_no_opengl()
+    assert (_windows.VARIABLE in os.environ) == is_set
+    os.environ.pop(_windows.VARIABLE, None)

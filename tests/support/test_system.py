@@ -44,6 +44,13 @@ def test_names_of_any_bytes(name):
     assert sys.platform == "win32" or decoded == os.fsdecode(name)
 
 
+def test_programs_of_the_system_answer_or_do_not():
+    python = sys.executable, "-S", "-c"
+    assert system.answer_of(*python, "print(' a  b ')") == "a  b"
+    assert system.answer_of(*python, "print('a'); raise SystemExit(1)") == ""
+    assert system.answer_of("/nowhere/to/be/found") == ""
+
+
 def test_ending_signals_and_processors():
     assert "SIGTERM" in {number.name for number in system.ending_signals()}
     assert 1 <= system.usable_processors() <= os.cpu_count()

@@ -3,6 +3,7 @@
 import shutil
 import subprocess
 import sys
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from desktop import virtual_screen
 import engine3d as e3d
 from engine3d import events
 from engine3d.apps.viewer import screen_scale as scales
+from engine3d.apps.viewer import x11_errors
 from engine3d.apps.viewer.program_window import ProgramWindow
 from engine3d.apps.viewer.screen_scale import screen_scale, x11_scale
 from engine3d.apps.viewer.viewer import Viewer
@@ -85,6 +87,24 @@ def test_each_system_tells_the_scale_in_its_way(name, dpi, scale, monkeypatch):
         monkeypatch.delenv(variable, raising=False)
     monkeypatch.setattr(scales, "x11_dpi", lambda display: (0.0, 96.0))
     assert screen_scale(Driver(name, dpi), 0) == scale
+
+
+def test_x11_without_its_library_tells_what_sdl_knows(monkeypatch):
+    """As on macOS, whose X server has the library under another name."""
+    for variable in ("GDK_SCALE", "GDK_DPI_SCALE"):
+        monkeypatch.delenv(variable, raising=False)
+    monkeypatch.setattr(scales.ctypes, "CDLL", Mock(side_effect=OSError))
+    monkeypatch.setattr(scales, "x11_dpi", scales.x11_dpi.__wrapped__)
+    assert scales.x11_dpi(":0") == (0.0, 0.0)
+    assert screen_scale(Driver(b"x11", 192), 0) == 2
+    assert screen_scale(Driver(b"x11", None), 0) == 1
+
+
+def test_no_system_needs_x11(monkeypatch):
+    monkeypatch.setattr(x11_errors.ctypes, "CDLL", Mock(side_effect=OSError))
+    monkeypatch.setattr(x11_errors, "_installed", [])
+    x11_errors.forgive_late_messages()
+    assert not x11_errors._installed
 
 
 @pytest.mark.parametrize(

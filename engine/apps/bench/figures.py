@@ -6,10 +6,14 @@ In:  rows of `measuring.measure`. Out: text.
 from __future__ import annotations
 
 import platform
+import sys
 from pathlib import Path
 
 from ... import __version__
-from ...base.system import usable_processors
+from ...base.system import answer_of, usable_processors
+
+#: Where Linux describes the processor.
+CPUINFO = "/proc/cpuinfo"
 
 
 def machine() -> dict:
@@ -25,13 +29,20 @@ def machine() -> dict:
 
 
 def _processor() -> str:
-    """Return the processor's name, as Linux reports it."""
+    """Return the processor's name, as the system tells it, or else its kind."""
+    return _told_processor() or platform.processor() or platform.machine() or "unknown processor"
+
+
+def _told_processor() -> str:
+    """Return what Linux or macOS says; elsewhere nothing."""
+    if sys.platform == "darwin":  # platform.processor() says "arm" there
+        return answer_of("/usr/sbin/sysctl", "-n", "machdep.cpu.brand_string")
     try:
-        lines = Path("/proc/cpuinfo").read_text("utf-8", "replace").splitlines()
+        lines = Path(CPUINFO).read_text("utf-8", "replace").splitlines()
     except OSError:
-        return platform.processor()
+        return ""
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return names[0] if names else platform.processor()
+    return names[0] if names else ""
 
 
 def heading(size, picture: str = "default") -> list[str]:

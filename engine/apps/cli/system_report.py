@@ -21,7 +21,7 @@ from ...base.thread_count import resolve_threads
 from ...errors import DisplayError, Engine3DError
 from ...rendering.backend_selection import backends, resolve_backend
 from ...version import __version__
-from ..bench.figures import machine
+from ..bench.figures import CPUINFO, machine
 from ..viewer.sdl import find_screen, load_sdl
 
 #: Older versions overrun their buffers when they read some damaged images.
@@ -90,22 +90,30 @@ def _version(package: str) -> str | None:
 
 
 def _system() -> dict:
-    try:
-        distribution = platform.freedesktop_os_release()["PRETTY_NAME"]
-    except (OSError, KeyError):
-        distribution = None
     return {
         "name": platform.system(),
         "release": platform.release(),
         "machine": platform.machine(),
-        "distribution": distribution,
+        "distribution": _distribution(),
         "libc": " ".join(platform.libc_ver()).strip() or None,
     }
 
 
+def _distribution() -> str | None:
+    """Return the name and version by which users know their system."""
+    if sys.platform == "darwin":  # its release is that of the kernel
+        return f"macOS {platform.mac_ver()[0]}".strip()
+    if sys.platform == "win32":  # 10 and 11 differ in the last number only
+        return f"Windows {platform.version()}".strip()
+    try:
+        return platform.freedesktop_os_release()["PRETTY_NAME"]
+    except (OSError, KeyError):
+        return None
+
+
 def _processor() -> dict:
     try:
-        text = Path("/proc/cpuinfo").read_text("utf-8", "replace")
+        text = Path(CPUINFO).read_text("utf-8", "replace")
     except OSError:
         text = ""
     flags = re.search(r"^(?:flags|Features)\s*:(.*)", text, re.MULTILINE)

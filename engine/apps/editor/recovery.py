@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from ...base.files import json_records
 
-#: Paths in a copy are relative to here, so that it may be stored anywhere. On Windows "/" alone is
-#: of the working folder's drive, which may be another one later.
-ROOT = f"{os.environ.get('SYSTEMDRIVE', 'C:')}/" if os.name == "nt" else "/"
+
+def root_of(system: str, environment: Mapping[str, str]) -> str:
+    """Return what paths in a copy are relative to, so that it may be stored anywhere.
+
+    On Windows, "/" alone is of the working folder's drive, which may be another one later. What is
+    on other drives than the system's is in the copy as a whole.
+    """
+    return f"{environment.get('SYSTEMDRIVE') or 'C:'}/" if system == "nt" else "/"
+
+
+ROOT = root_of(os.name, os.environ)
 _LARGEST = 1 << 40  # bytes
 
 

@@ -4,10 +4,12 @@ import os
 import time
 from importlib.resources import files
 
+import pytest
 from editor.ui.editor_hands import SIZE, click, do, find, middle_of, press, settle
 
 import engine3d as e3d
 from engine3d import data, events
+from engine3d.apps.editor.recovery import root_of
 
 
 def test_files_that_are_dropped_are_added_and_a_bad_one_is_told(editor, tmp_path):
@@ -97,6 +99,20 @@ def test_a_scene_that_was_left_behind_is_offered(editor, monkeypatch):
     editor._files._answers["Recover"]()
     settle(editor)
     assert len(editor.workspace.scene.nodes) == count and editor.workspace.document.is_modified
+
+
+@pytest.mark.parametrize(
+    ("system", "environment", "root"),
+    [
+        ("posix", {}, "/"),
+        ("posix", {"SYSTEMDRIVE": "D:"}, "/"),
+        ("nt", {"SYSTEMDRIVE": "D:"}, "D:/"),
+        ("nt", {"SYSTEMDRIVE": ""}, "C:/"),
+        ("nt", {}, "C:/"),
+    ],
+)
+def test_what_is_left_behind_names_its_files_from_a_root(system, environment, root):
+    assert root_of(system, environment) == root
 
 
 def test_a_texture_is_loaded_into_a_slot(editor, tmp_path):

@@ -14,6 +14,7 @@ import numpy as np
 from ..base.calls import keywords_of, refuse_unknown
 from ..choices import Antialiasing, Backend, ColorSpace, Samples
 from ..errors import warn
+from ..io.scenes.other_libraries import has_points, is_of_library
 from ..model.materials.material import Material
 from ..model.scene.scene import Scene
 from ..rendering.camera_choice import find_camera
@@ -115,7 +116,10 @@ class _OnePicture(Renderer):
         """Return why a frame of a thing shows nothing of it; None if it does."""
         staged = self._stages.last
         if staged is not None:
-            return staged.view_renderer.why_blank()
+            view_renderer = staged.view_renderer
+            if is_of_library(thing) and not has_points(view_renderer.viewed.scene):
+                return None  # its conversion has warned
+            return view_renderer.why_blank()
         if not isinstance(thing, Scene) or not may_be_blank(frame.stats, thing):
             return None
         aspect = self.width / self.height

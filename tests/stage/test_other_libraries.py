@@ -335,5 +335,6 @@ def test_what_has_no_points_is_a_warning(library):
     for make in EMPTY[library]:
         thing = make(package)
         told = f"this {type(thing).__name__} has no points"
-        with pytest.warns(e3d.errors.Engine3DWarning, match=told):
+        with pytest.warns(e3d.errors.Engine3DWarning, match=told) as caught:
             e3d.render(thing, size=(16, 12))
+        assert len(caught) == 1, [str(one.message) for one in caught]

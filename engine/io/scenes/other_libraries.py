@@ -52,6 +52,12 @@ def _scene_of_several(things: Sequence[Any]) -> Scene | None:
     return whole if things else None
 
 
+def is_of_library(thing: Any) -> bool:
+    """Return whether a thing is an object of a library of this list, or a list that holds one."""
+    several = thing if isinstance(thing, list | tuple) else ()
+    return library_of(thing) is not None or any(library_of(one) is not None for one in several)
+
+
 def has_points(scene: Scene) -> bool:
     """Return whether a mesh of a scene has points, without which nothing shows."""
     objects = (node.object for node in scene.nodes)

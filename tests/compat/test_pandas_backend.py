@@ -115,6 +115,28 @@ def test_columns_are_taken_by_their_names():
     assert not np.array_equal(*shown)
 
 
+def colors_of(dtype, rows, **alpha):
+    """Return the colours of a table with rows of red, green and blue, as bytes."""
+    rgb = dict(zip("rgb", np.array(rows, dtype).T, strict=True))
+    count = np.arange(len(rows))
+    return srgb_bytes(only_mesh(pd.DataFrame({"x": count, "y": 0, "z": 0, **rgb, **alpha})).colors)
+
+
+def test_colours_of_laser_scans_range_to_65535():
+    wide = [[65535, 32768, 0], [257, 514, 0]]
+    bytes_of_wide = [[255, 128, 0], [1, 2, 0]]
+    assert colors_of(np.uint16, wide)[:, :3].tolist() == bytes_of_wide
+    with pytest.warns(e3d.errors.Engine3DWarning, match="r, g, b: numbers up to 65535 .* to 65535"):
+        assert colors_of(np.int64, wide)[:, :3].tolist() == bytes_of_wide
+    with pytest.warns(e3d.errors.Engine3DWarning, match="16-bit integers up to 200 .* 0 to 255"):
+        assert colors_of(np.uint16, [[200, 100, 0]])[0, :3].tolist() == [200, 100, 0]
+
+
+def test_alpha_has_a_range_of_its_own():
+    found = colors_of(np.uint8, [[200, 100, 0]] * 2, a=[1.0, 0.5])
+    assert found.tolist() == [[200, 100, 0, 255], [200, 100, 0, 128]]
+
+
 def test_tables_without_places_are_refused():
     assert scene_of_library(table()) is None
     with pytest.raises(e3d.InvalidArgumentError, match="this DataFrame of pandas holds nothing"):

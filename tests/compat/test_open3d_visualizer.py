@@ -74,6 +74,18 @@ def test_tensors_are_drawn_as_what_they_hold():
     assert np.mean(ours != legacy) < 0.01
 
 
+def test_tensors_are_updated_and_removed():
+    tensor = o3d.t.geometry.TriangleMesh.from_legacy(torus())
+    visualizer = opened(tensor)
+    first = seen(visualizer)
+    tensor.vertex.positions = tensor.vertex.positions * 0.5
+    assert np.array_equal(seen(visualizer), first)
+    visualizer.update_geometry(tensor)
+    assert not np.array_equal(seen(visualizer), first)
+    assert visualizer.remove_geometry(tensor, reset_bounding_box=False)
+    assert (seen(visualizer) == 1).all()
+
+
 def test_what_is_not_drawn_is_named():
     visualizer = opened()
     with pytest.warns(Engine3DWarning, match="draws no Image"):

@@ -7,6 +7,7 @@ import numpy as np
 from ...base import linalg
 from ...base.image_size import check_size
 from ...errors import InvalidArgumentError, warn
+from ...io.scenes.open3d_scenes import legacy_of
 from ._geometry_parts import Part, kind_of, parts_of
 from ._keys import CONTROL, PRESS, RELEASE, SHIFT, press
 from ._loading import load
@@ -168,14 +169,12 @@ class Visualizer(Captures):
         """
         if self._control is None or geometry is None:
             return False
-        if hasattr(geometry, "to_legacy"):
-            geometry = geometry.to_legacy()
-        if kind_of(geometry) is None:
+        if kind_of(legacy_of(geometry)) is None:
             warn(f"a Visualizer draws no {type(geometry).__name__}")
             return False
         self._parts[id(geometry)] = geometry, None
         if reset_bounding_box:
-            self._control.fit_in(geometry)
+            self._control.fit_in(legacy_of(geometry))
             self.reset_view_point()
         self.update_geometry(geometry)
         return True
@@ -209,7 +208,7 @@ class Visualizer(Captures):
         if reset_bounding_box:
             control.reset_bounding_box()
             for one, _ in self._parts.values():
-                control.fit_in(one)
+                control.fit_in(legacy_of(one))
         control.reset()
         self._needs_drawing = True
 
@@ -268,7 +267,7 @@ class Visualizer(Captures):
         control, option = self._begun(), self._option
         for key, (one, parts) in self._parts.items():
             if parts is None:
-                self._parts[key] = one, parts_of(one, option, control.box)
+                self._parts[key] = one, parts_of(legacy_of(one), option, control.box)
         every = [part for _, parts in self._parts.values() for part in parts or ()]
         if self._frame_mesh is not None and option.show_coordinate_frame:
             every += parts_of(self._frame_mesh, RenderOption(), control.box)

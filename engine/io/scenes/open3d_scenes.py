@@ -45,8 +45,7 @@ def scene_from_open3d(thing: Any) -> Scene | None:
     """
     if hasattr(thing, "meshes") and hasattr(thing, "materials"):
         return _scene_of_model(thing)
-    if hasattr(thing, "to_legacy"):
-        thing = thing.to_legacy()
+    thing = legacy_of(thing)
     kind = next((one.__name__ for one in type(thing).__mro__ if one.__name__ in _MESHES), None)
     if kind is None:
         return None
@@ -56,6 +55,11 @@ def scene_from_open3d(thing: Any) -> Scene | None:
     scene = Scene()
     scene.add(made, name=type(thing).__name__)
     return scene
+
+
+def legacy_of(geometry: Any) -> Any:
+    """Return a geometry of ``open3d.t`` as one of ``open3d``, now; others as they are."""
+    return geometry.to_legacy() if hasattr(geometry, "to_legacy") else geometry
 
 
 def _scene_of_model(model: Any) -> Scene:

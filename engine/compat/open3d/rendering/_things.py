@@ -16,7 +16,12 @@ from ....base import linalg
 from ....base.numbers import shown
 from ....errors import InvalidArgumentError, warn
 from ....io.scenes.open3d_materials import material_of_record
-from ....io.scenes.open3d_scenes import octree_cells, require_indices, scene_from_open3d
+from ....io.scenes.open3d_scenes import (
+    legacy_of,
+    octree_cells,
+    require_indices,
+    scene_from_open3d,
+)
 from ....io.scenes.voxel_faces import cube_faces
 from ....model.geometry.mesh import Mesh
 from ....model.materials.linear_colors import linear
@@ -97,8 +102,7 @@ class Arrays:
 
 def thing_of(geometry: Any, record: Any, planes: tuple[float, float]) -> Thing | None:
     """Return a geometry as a thing; None for what Filament does not draw either."""
-    if hasattr(geometry, "to_legacy"):
-        geometry = geometry.to_legacy()
+    geometry = legacy_of(geometry)
     if not hasattr(geometry, "is_empty"):
         raise InvalidArgumentError(f"a geometry of Open3D is needed, not {type(geometry).__name__}")
     _require_record(record)

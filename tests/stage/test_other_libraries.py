@@ -218,6 +218,16 @@ class TestOpen3d:
         assert both[-1, 0, :3].tolist() == [0, 255, 0] and both[0, 0, :3].tolist() == [0, 0, 255]
         assert area(mesh) == pytest.approx(6) and len(mesh.uvs) == 36
 
+    def test_materials_without_an_image_count(self):
+        """As of OBJ files, whose first material is an empty one."""
+        image, numbers = self.open3d.geometry.Image, [0] * 6 + [1] * 6
+        given = self.make.TriangleMesh.create_box(create_uv_map=True)
+        given.textures = [image(), image(np.full((2, 2, 3), 9, np.uint8))]
+        given.triangle_material_ids = self.open3d.utility.IntVector(numbers)
+        mesh = only_mesh(given)
+        assert mesh.material_ids.tolist() == numbers
+        assert [one.texture is None for one in mesh.materials] == [True, False]
+
     def test_points_and_lines(self):
         cloud = self.make.PointCloud(self.vectors(POINTS))
         assert only_mesh(cloud).points.tolist() == list(range(8))

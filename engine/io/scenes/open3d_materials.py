@@ -7,6 +7,7 @@ as Open3D's shaders read them.
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,61 @@ from ...model.materials.textures import Texture
 #: Maps of records that have no counterpart here.
 _ABSENT_MAPS = ("clearcoat_img", "clearcoat_roughness_img", "anisotropy_img", "reflectance_img")
 _UNLIT = ("defaultUnlit", "defaultUnlitTransparency", "unlitSolidColor", "unlitLine")
+
+
+#: By the keys of ``open3d.visualization.Material``: the fields of a record, and their defaults.
+_RECORD_MAPS = {
+    "albedo": "albedo_img",
+    "normal": "normal_img",
+    "ambient_occlusion": "ao_img",
+    "roughness": "roughness_img",
+    "metallic": "metallic_img",
+    "reflectance": "reflectance_img",
+    "clear_coat": "clearcoat_img",
+    "clear_coat_roughness": "clearcoat_roughness_img",
+    "anisotropy": "anisotropy_img",
+    "ao_rough_metal": "ao_rough_metal_img",
+}
+_RECORD_NUMBERS = {
+    "metallic": ("base_metallic", 0.0),
+    "roughness": ("base_roughness", 1.0),
+    "reflectance": ("base_reflectance", 0.5),
+    "clear_coat": ("base_clearcoat", 0.0),
+    "clear_coat_roughness": ("base_clearcoat_roughness", 0.0),
+    "anisotropy": ("base_anisotropy", 0.0),
+    "thickness": ("thickness", 1.0),
+    "transmission": ("transmission", 1.0),
+    "absorption_distance": ("absorption_distance", 1.0),
+    "point_size": ("point_size", 3.0),
+    "line_width": ("line_width", 1.0),
+}
+_RECORD_COLORS = {
+    "base_color": ("base_color", (1.0, 1.0, 1.0, 1.0)),
+    "absorption_color": ("absorption_color", (1.0, 1.0, 1.0)),
+}
+
+
+def record_of_tensor(geometry: Any) -> Any:
+    """Return the material of a geometry of ``open3d.t`` as a record; None without one.
+
+    It has the fields of a ``MaterialRecord`` that `material_of_record` reads.
+    """
+    material = getattr(geometry, "material", None)
+    if material is None or not material.is_valid():
+        return None
+    record = SimpleNamespace(
+        shader=material.material_name or "defaultLit", has_alpha=False, sRGB_color=False
+    )
+    maps, numbers = material.texture_maps, material.scalar_properties
+    for key, field in _RECORD_MAPS.items():
+        setattr(record, field, maps[key].to_legacy() if key in maps else None)
+    for key, (field, number) in _RECORD_NUMBERS.items():
+        setattr(record, field, float(numbers[key]) if key in numbers else number)
+    for key, (field, color) in _RECORD_COLORS.items():
+        given = material.vector_properties
+        held = np.asarray(given[key], np.float64) if key in given else np.array(color)
+        setattr(record, field, held[: len(color)])
+    return record
 
 
 def bytes_of_image(image: Any) -> NDArray[np.uint8]:

@@ -22,7 +22,7 @@ from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.scene.scene import Scene
 from .meshio_scenes import scene_from_meshio
-from .open3d_materials import bytes_of_image, material_of_record
+from .open3d_materials import bytes_of_image, material_of_record, record_of_tensor
 from .voxel_faces import CUBE_EDGES, cube_faces, outer_faces
 
 #: The lines of boxes, as rows of their ``get_box_points()``.
@@ -45,6 +45,7 @@ def scene_from_open3d(thing: Any) -> Scene | None:
     """
     if hasattr(thing, "meshes") and hasattr(thing, "materials"):
         return _scene_of_model(thing)
+    record = record_of_tensor(thing)
     thing = legacy_of(thing)
     kind = next((one.__name__ for one in type(thing).__mro__ if one.__name__ in _MESHES), None)
     if kind is None:
@@ -52,6 +53,8 @@ def scene_from_open3d(thing: Any) -> Scene | None:
     made = _MESHES[kind](thing)
     if made is None:
         return None
+    if record is not None and kind == "TriangleMesh":
+        made.materials = [material_of_record(record)]
     scene = Scene()
     scene.add(made, name=type(thing).__name__)
     return scene
@@ -88,24 +91,30 @@ def mesh_of_triangles(geometry: Any) -> Mesh:
         given |= {"uvs": uvs, "position_ids": corners}
         positions, faces = positions[corners], np.arange(len(corners)).reshape(-1, 3)
     mesh = Mesh(positions, faces, crease_angle=CREASE_ANGLE, **given)
-    images = [image for image in geometry.textures if not image.is_empty()]
-    if images and "uvs" in given:
-        _dress(mesh, geometry, images)
+    if "uvs" in given and not all(image.is_empty() for image in geometry.textures):
+        _dress(mesh, geometry)
     return mesh
 
 
-def _dress(mesh: Mesh, geometry: Any, images: list[Any]) -> None:
-    """Give the faces of a mesh its textures, which replace its vertex colours as in Open3D."""
+def _dress(mesh: Mesh, geometry: Any) -> None:
+    """Give the faces of a mesh its textures, which replace its vertex colours as in Open3D.
+
+    Materials of files that have no image are empty ones, which count.
+    """
+    images = list(geometry.textures)
     ids = np.asarray(geometry.triangle_material_ids)
     if len(ids) != len(mesh.faces):
-        ids = np.zeros(len(mesh.faces), np.int32)
+        first = next(number for number, image in enumerate(images) if not image.is_empty())
+        ids = np.full(len(mesh.faces), first, np.int32)
     if ids.min() < 0 or ids.max() >= len(images):
         raise InvalidArgumentError(
             f"triangle_material_ids must be in 0..{len(images) - 1}, as there are {len(images)} "
             f"textures: found {ids.min()}..{ids.max()}"
         )
     mesh.colors = None
-    mesh.materials = [Material(texture=_texture(image)) for image in images]
+    mesh.materials = [
+        Material() if image.is_empty() else Material(texture=_texture(image)) for image in images
+    ]
     mesh.material_ids = ids
 
 

@@ -117,6 +117,19 @@ def show(
         ) from None
 
 
+def show_viewed(viewed: ViewedScene, settings: Settings, size: tuple[int, int] | None) -> None:
+    """Show a viewed scene as `show` does, with any settings.
+
+    Raises
+    ------
+    DisplayError
+        There is no screen.
+    InvalidArgumentError
+        The size is none of a picture.
+    """
+    _show_scene(viewed, settings, None if size is None else check_size(size))
+
+
 def _in_a_kernel() -> bool:
     """Return whether the program runs in a notebook kernel."""
     shell = sys.modules.get("IPython")

@@ -273,7 +273,7 @@ def look_through(view: Viewpoint, node: Node, bounds: Sphere) -> None:
         view.up = tuple(own.tolist())
         view.look_from(eye, target)
     view.orthographic = isinstance(camera, OrthographicCamera)
-    view.lens = camera if isinstance(camera, LensCamera) else None
+    view.lens = camera if isinstance(camera, LensCamera | IntrinsicsCamera) else None
     if isinstance(camera, OrthographicCamera):
         view.distance = camera.ymag / math.tan(view.yfov / 2)
 

@@ -142,6 +142,77 @@ def test_what_the_viewer_takes_and_ignores(tmp_path):
     assert (np.asarray(Image.open(file)) == 255).all()
 
 
+@pytest.fixture
+def shown(monkeypatch):
+    """What a window would show: a function that returns it."""
+    held = []
+    monkeypatch.setattr(windowed(), "show_viewed", lambda *given: held.append(given))
+
+    def show(scene, **options):
+        scene.show(**options)
+        return held.pop()
+
+    return show
+
+
+def windowed():
+    return sys.modules["trimesh.viewer.windowed"]
+
+
+def test_the_window_has_what_it_was_asked_for(shown):
+    scene = trimesh.creation.icosphere(subdivisions=1).scene()
+    flags = {"cull": False, "wireframe": True, "grid": True, "axis": True}
+    sizes = {"line_width": 3, "point_size": 0.5}
+    viewed, settings, size = shown(
+        scene,
+        caption="A ball",
+        resolution=(90, 60),
+        flags=flags,
+        line_settings=sizes,
+        background=[10, 20, 30],
+        smooth=False,
+    )
+    assert (viewed.title, size) == ("A ball", (90, 60))
+    assert settings.appearance == {
+        "cull": "none",
+        "wireframe": "only",
+        "line_width": 3,
+        "point_size": 1,
+    }
+    assert (settings.grid, settings.axes, settings.background) == (True, True, (10, 20, 30))
+    (ball,) = (node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh))
+    assert ball.materials[0].flat_shading
+    viewed, settings, _ = shown(trimesh.creation.box().scene())
+    assert settings.appearance == {} and settings.background is None
+
+
+def test_a_window_follows_what_a_callback_moves(shown):
+    scene = trimesh.Scene({"a": trimesh.creation.box(), "b": trimesh.creation.box()})
+    move = trimesh.transformations.translation_matrix([0, 2, 0])
+
+    def callback(scene):
+        scene.graph.update("a", matrix=move)
+        scene.delete_geometry("b")
+
+    viewed, _, size = shown(scene, callback=callback)
+    a, b = (node for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh))
+    assert size is None and viewed.plays and b.visible
+    viewed.update(0.0)
+    with pytest.warns(e3d.errors.Engine3DWarning, match="no new shapes and views") as caught:
+        scene.geometry["a"].apply_scale(2)
+        viewed.update(0.1)
+        viewed.update(0.2)
+    assert len(caught) == 1
+    assert np.array_equal(a.world_pose, move) and not b.visible
+
+
+def test_what_the_window_does_not_take_is_named(shown):
+    options = {"fixed": ["a"], "record": True, "visible": False, "flags": {"fullscreen": True}}
+    told = "does not support visible, fullscreen, fixed, record$"
+    with pytest.warns(e3d.errors.Engine3DWarning, match=told):
+        shown(trimesh.creation.box().scene(), **options)
+
+
 def test_empty_scenes_and_broken_meshes():
     assert (picture(trimesh.Scene()) == 255).all()
     broken = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], process=False)

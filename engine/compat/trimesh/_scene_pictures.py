@@ -53,7 +53,7 @@ def draw(scene: Any, settings: Settings) -> NDArray[np.uint8]:
         point_size=min(max(settings.point_size, _LEAST), MAX_LINE),
         line_shape="round",
     )
-    return _over(frame.color, _background(settings.background))
+    return _over(frame.color, background_of(settings.background))
 
 
 def _eye_from_world(scene: Any) -> NDArray[np.float64]:
@@ -178,7 +178,8 @@ def _grid(scene: Any) -> Shape | None:
         return None
 
 
-def _background(given: Any) -> NDArray[np.uint8]:
+def background_of(given: Any) -> NDArray[np.uint8]:
+    """Return the RGBA bytes of a background, (4,); white for None."""
     if given is None:
         return np.full(4, 255, np.uint8)
     try:

@@ -13,13 +13,14 @@ from typing import Any
 import numpy as np
 
 from ..._native.images import encode_png
-from ...apps.viewer.show import show
+from ...apps.viewer.show import show_viewed
 from ...base.files.atomic_write import atomic_write
 from ...base.numbers import shown
 from ...base.validation import choose, positive
 from ...errors import InvalidArgumentError, warn
 from ._scene_pictures import draw
 from ._settings import Settings
+from ._window import Asked, warn_of_missing
 
 __all__ = ["SceneViewer", "render_scene"]
 
@@ -41,9 +42,10 @@ class SceneViewer:
     resolution : (2,) int, optional
         By default that of the scene's camera, which is set to it.
     start_loop : bool
-        Show a window, and return when it is closed.
+        Show a window, and return when it is closed. It does not take ``fixed``, ``offset_lines``,
+        ``record`` and what has no effect: a warning names them.
     callback : function, optional
-        Gets the scene before each picture.
+        Gets the scene before each picture. A window follows what it moves and hides.
     fixed : iterable of str, optional
         Names of geometries that stay where the camera first saw them.
     offset_lines : bool
@@ -54,7 +56,9 @@ class SceneViewer:
         RGB or RGBA; white by default.
     record : bool
         Collect PNG bytes in ``scene.metadata["recording"]``.
-    visible, fullscreen, resizable, caption, window_conf, profile, callback_period
+    caption : str, optional
+        The title of the window.
+    visible, fullscreen, resizable, window_conf, profile, callback_period
         Of pyglet's window; taken, and of no effect.
 
     Raises
@@ -85,6 +89,7 @@ class SceneViewer:
         **kwargs: Any,
     ) -> None:
         self.scene, self.callback = scene, callback
+        has_size = resolution is not None or scene.has_camera
         self._smooth, self._record, self._fixed = bool(smooth), bool(record), fixed
         self._is_offset = bool(offset_lines)
         self._hidden: set[str] = set()
@@ -104,7 +109,23 @@ class SceneViewer:
         self.reset_view(flags)
         setattr(scene, "_redraw", self.on_draw)  # noqa: B010  its name in trimesh
         if start_loop:
-            show(scene)
+            warn_of_missing(
+                {
+                    "visible": not visible,
+                    "fullscreen": bool(fullscreen or self.view["fullscreen"]),
+                    "resizable": not resizable,
+                    "fixed": fixed is not None,
+                    "offset_lines": not offset_lines,
+                    "record": bool(record),
+                    "callback_period": callback_period is not None,
+                    "window_conf": window_conf is not None,
+                    "profile": bool(profile),
+                }
+            )
+            given = _options(flags, "flags"), _options(line_settings, "line_settings")
+            asked = Asked(caption, self._smooth, *given, background, callback)
+            viewed = asked.viewed(scene)
+            show_viewed(viewed, asked.settings(), self._size if has_size else None)
 
     def reset_view(self, flags: Mapping[str, Any] | None = None) -> None:
         """Set the flags to their defaults, or to those given; put the camera back."""

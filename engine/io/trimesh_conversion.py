@@ -1,8 +1,7 @@
 """Conversion of meshes from and to the optional package trimesh.
 
 In: trimesh geometry, or a `Mesh`. Out: the other. trimesh is imported only to create its objects;
-its geometry is recognised by attributes. Factors of physically based materials are linear light, as
-in glTF; other colours of materials are display values. Vertex colours are sRGB bytes on both sides.
+its geometry is recognised by attributes. Vertex colours are sRGB bytes on both sides.
 """
 
 from __future__ import annotations
@@ -18,14 +17,12 @@ from ..errors import InvalidArgumentError
 from ..model.geometry.mesh import Mesh
 from ..model.geometry.posing import posed_mesh
 from ..model.materials.colors import linear_color, srgb_bytes
-from ..model.materials.linear_colors import LinearColor
 from ..model.materials.material import Material, textures_of
-from ..model.materials.textures import Texture
-from .formats.images import check_image_size, made_pixels
 from .reading.far_coordinates import moved_near
 from .reading.indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .reading.posed_parts import PosedPart
 from .reading.warning_list import WarningList
+from .trimesh_materials import TrimeshMaterials
 
 
 def mesh_from_trimesh(geometry: Any) -> Mesh:
@@ -33,7 +30,7 @@ def mesh_from_trimesh(geometry: Any) -> Mesh:
     if hasattr(geometry, "graph") and hasattr(geometry, "geometry"):
         parts = scene_parts(geometry)
         return Mesh.concatenate([posed_mesh(part.mesh, part.pose) for part in parts])
-    return _mesh(geometry, "", _Textures())
+    return _mesh(geometry, "", TrimeshMaterials())
 
 
 def scene_parts(
@@ -45,12 +42,12 @@ def scene_parts(
     near the origin, and poses move them back.
     """
     meshes: dict[str, tuple[Mesh, np.ndarray | None]] = {}
-    textures = _Textures(warnings)
+    materials = TrimeshMaterials(warnings)
     parts = []
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]
         if name not in meshes:
-            meshes[name] = _near_mesh(scene.geometry[name], str(name), textures, near)
+            meshes[name] = _near_mesh(scene.geometry[name], str(name), materials, near)
         mesh, back = meshes[name]
         pose = np.array(pose, np.float64)
         parts.append(PosedPart(str(node), mesh, pose if back is None else pose @ back))
@@ -58,49 +55,66 @@ def scene_parts(
 
 
 def _near_mesh(
-    geometry: Any, name: str, textures: _Textures, near: bool
+    geometry: Any, name: str, materials: TrimeshMaterials, near: bool
 ) -> tuple[Mesh, np.ndarray | None]:
     """Return the mesh of a geometry, and the pose that undoes a move of its coordinates."""
     vertices = np.asarray(getattr(geometry, "vertices", ()), np.float64)
     if not near or vertices.ndim != 2 or vertices.shape[1] != 3:
-        return _mesh(geometry, name, textures), None
+        return _mesh(geometry, name, materials), None
     moved, back = moved_near(vertices)
-    return _mesh(geometry, name, textures, moved), back
+    return _mesh(geometry, name, materials, moved), back
 
 
 def _mesh(
-    geometry: Any, name: str, textures: _Textures, positions: np.ndarray | None = None
+    geometry: Any, name: str, materials: TrimeshMaterials, positions: np.ndarray | None = None
 ) -> Mesh:
     """Return the mesh of a Trimesh, PointCloud or Path; its vertices may be given separately."""
     if positions is None:
         positions = np.asarray(getattr(geometry, "vertices", ()), np.float64)
     if hasattr(geometry, "faces") and hasattr(geometry, "visual"):
-        return _triangle_mesh(geometry, name, textures, positions)
+        return _triangle_mesh(geometry, name, materials, positions)
     if hasattr(geometry, "entities"):
         return _path_mesh(geometry, name, positions)
     if hasattr(geometry, "vertices"):
         colors = getattr(geometry, "colors", None)
         colors = None if colors is None or len(colors) != len(positions) else _bytes(colors)
-        return Mesh(positions, colors=colors, points=np.arange(len(positions)), name=name)
+        cloud = Mesh(positions, colors=colors, points=np.arange(len(positions)), name=name)
+        _show_alpha(cloud, colors)
+        return cloud
     raise InvalidArgumentError(f"geometry must be one of trimesh, not {shown(geometry)}")
 
 
-def _triangle_mesh(geometry: Any, name: str, textures: _Textures, positions: np.ndarray) -> Mesh:
+def _triangle_mesh(
+    geometry: Any, name: str, materials: TrimeshMaterials, positions: np.ndarray
+) -> Mesh:
     visual = geometry.visual
     kind = getattr(visual, "kind", None)
     indexed = IndexedGeometry(positions, np.asarray(geometry.faces, np.int32))
     # Asking a mesh without normals for them would make trimesh compute them.
     if "vertex_normals" in getattr(geometry, "_cache", ()):
         indexed.normals = np.asarray(geometry.vertex_normals, np.float32)
+    colors = None
     if kind == "vertex":
-        indexed.colors = _bytes(visual.vertex_colors)
+        colors = indexed.colors = _bytes(visual.vertex_colors)
     elif kind == "face":
-        indexed.face_colors = _bytes(visual.face_colors)
+        colors = indexed.face_colors = _bytes(visual.face_colors)
     elif kind == "texture" and visual.uv is not None and len(visual.uv) == len(indexed.positions):
         indexed.uvs = np.nan_to_num(np.asarray(visual.uv, np.float32)[:, :2])
     mesh = build_indexed_mesh(indexed, name)
-    mesh.materials = [_material(visual.material, textures)] if kind == "texture" else [Material()]
+    if kind == "texture":
+        mesh.materials, ids = materials.of(visual, len(mesh.faces))
+        if ids is not None:
+            mesh.material_ids = ids
+    else:
+        mesh.materials = [Material()]
+        _show_alpha(mesh, colors)
     return mesh
+
+
+def _show_alpha(mesh: Mesh, colors: np.ndarray | None) -> None:
+    """Let the alpha of a mesh's colours count, if they have any."""
+    if colors is not None and colors.shape[1] == 4 and (colors[:, 3] != 255).any():
+        mesh.materials = [Material(alpha_mode="blend")]
 
 
 def _path_mesh(geometry: Any, name: str, vertices: np.ndarray) -> Mesh:
@@ -111,6 +125,7 @@ def _path_mesh(geometry: Any, name: str, vertices: np.ndarray) -> Mesh:
         np.asarray(entity.discrete(vertices, scale=scale or 1.0), np.float64)
         for entity in geometry.entities
     ]
+    lengths = np.array([len(run) if len(run) > 1 else 0 for run in runs], np.int64)
     runs = [run for run in runs if len(run) > 1]
     if not runs:
         return Mesh(np.zeros((0, 3)), name=name)
@@ -119,72 +134,16 @@ def _path_mesh(geometry: Any, name: str, vertices: np.ndarray) -> Mesh:
     first = np.arange(len(positions) - 1)
     ends = np.cumsum([len(run) for run in runs])[:-1] - 1
     first = np.delete(first, ends)
-    return Mesh(positions, lines=np.stack([first, first + 1], axis=1), name=name)
+    colors = getattr(geometry, "colors", None)  # of entities
+    if colors is not None:
+        colors = np.repeat(_bytes(colors), lengths, axis=0)
+    mesh = Mesh(positions, colors=colors, lines=np.stack([first, first + 1], axis=1), name=name)
+    _show_alpha(mesh, colors)
+    return mesh
 
 
 def _bytes(colors: Any) -> np.ndarray:
     return np.array(colors, np.uint8).reshape(len(colors), -1)
-
-
-def _material(material: Any, textures: _Textures) -> Material:
-    """Return the material of a trimesh material; for a `MultiMaterial`, the first one's."""
-    material = (getattr(material, "materials", None) or [material])[0]
-    factor = getattr(material, "baseColorFactor", None)
-    if factor is None:
-        factor = getattr(material, "diffuse", None)
-    image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
-    # trimesh's default grey for materials without a colour would darken the image.
-    is_default = factor is None or (image is not None and not hasattr(material, "baseColorFactor"))
-    emissive = getattr(material, "emissiveFactor", None)
-    extras = {
-        key: float(value)
-        for key, name in (("Pm", "metallicFactor"), ("Pr", "roughnessFactor"))
-        if (value := getattr(material, name, None)) is not None
-    }
-    return Material(
-        name=str(getattr(material, "name", None) or ""),
-        color=(1.0, 1.0, 1.0)
-        if is_default
-        else _color(factor, hasattr(material, "baseColorFactor")),
-        texture=None if image is None else textures.get(image),
-        emissive=(0.0, 0.0, 0.0) if emissive is None else _color(emissive, is_linear=True),
-        two_sided=bool(getattr(material, "doubleSided", False)),
-        extras=extras,
-    )
-
-
-def _color(color: Any, is_linear: bool) -> tuple[float, ...]:
-    color = np.asarray(color)
-    scale = 255.0 if color.dtype.kind in "iu" else 1.0
-    parts = [float(c) / scale for c in np.nan_to_num(color[:3]).clip(min=0).tolist()]
-    return LinearColor(parts) if is_linear else tuple(min(part, 1.0) for part in parts)
-
-
-class _Textures:
-    """The textures of Pillow images, one for each image shared by materials."""
-
-    def __init__(self, warnings: WarningList | None = None) -> None:
-        self._warnings = warnings
-        # Also holds the image: otherwise its ID could be reused.
-        self._textures: dict[int, tuple[object, Texture | None]] = {}
-
-    def get(self, image: Any) -> Texture | None:
-        if id(image) not in self._textures:
-            self._textures[id(image)] = (image, self._texture(image))
-        return self._textures[id(image)][1]
-
-    def _texture(self, image: Any) -> Texture | None:
-        name = str(getattr(image, "name", None) or "")
-        try:
-            check_image_size(image.width, image.height, "texture")
-            return Texture(made_pixels(image, "texture"), name=name)
-        # Pillow decodes the image only here, and raises various errors for damaged ones.
-        except Exception as error:
-            if self._warnings is None:
-                raise
-            reason = str(error) or type(error).__name__
-            self._warnings.add(f"texture {name!r} is left out: {reason}")
-            return None
 
 
 def mesh_to_trimesh(mesh: Mesh) -> Any:
@@ -244,7 +203,7 @@ def _trimesh_material(trimesh: ModuleType, material: Material) -> Any:
         name=material.name or None,
         baseColorFactor=[*map(float, linear_color(material.rgb).clip(0, 1)), 1.0],
         baseColorTexture=image,
-        metallicFactor=material.extras.get("Pm"),
-        roughnessFactor=material.extras.get("Pr"),
+        metallicFactor=material.extras.get("Pm", material.metallic),
+        roughnessFactor=material.extras.get("Pr", material.roughness),
         doubleSided=material.two_sided,
     )

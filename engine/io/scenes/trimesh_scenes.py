@@ -11,8 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import warn
 from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.scene import Scene
+
+#: Intensity, radius and colour of the two lights that trimesh makes.
+_MADE_LIGHT = 1.0, None, (60, 60, 60, 255)
 
 
 def scene_from_trimesh(thing: Any) -> Scene | None:
@@ -34,7 +38,27 @@ def scene_from_trimesh(thing: Any) -> Scene | None:
         scene.add(mesh, name=name, pose=pose)
     if thing.has_camera:
         _add_camera(scene, thing)
+    if _has_own_lights(thing):
+        warn(
+            "the lights of a trimesh.Scene are left out: the look lights it, unless its save_image "
+            "draws it by engine3d.compat.trimesh"
+        )
     return scene
+
+
+def _has_own_lights(other: Any) -> bool:
+    """Return whether a trimesh scene was given lights, unlike those that trimesh makes by itself.
+
+    Asking for its lights would make some.
+    """
+    lights = vars(other).get("_lights") or ()
+    made = [
+        light
+        for light in lights
+        if type(light).__name__ == "PointLight"
+        and (light.intensity, light.radius, tuple(light.color)) == _MADE_LIGHT
+    ]
+    return len(made) < len(lights) or len(lights) > 2
 
 
 def _add_camera(scene: Scene, other: Any) -> None:

@@ -18,9 +18,9 @@ from ...base.files.atomic_write import atomic_write
 from ...base.numbers import shown
 from ...base.validation import choose, positive
 from ...errors import InvalidArgumentError, warn
+from ._asked_window import Asked, warn_of_missing
 from ._scene_pictures import draw
 from ._settings import Settings
-from ._window import Asked, warn_of_missing
 
 __all__ = ["SceneViewer", "render_scene"]
 

@@ -68,7 +68,9 @@ def _near_mesh(
 def _mesh(
     geometry: Any, name: str, materials: TrimeshMaterials, positions: np.ndarray | None = None
 ) -> Mesh:
-    """Return the mesh of a Trimesh, PointCloud or Path; its vertices may be given separately."""
+    """Return the mesh of a Trimesh, PointCloud, Path or VoxelGrid; vertices may be given apart."""
+    if hasattr(geometry, "as_boxes"):  # voxels
+        geometry = geometry.as_boxes()
     if positions is None:
         positions = np.asarray(getattr(geometry, "vertices", ()), np.float64)
     if hasattr(geometry, "faces") and hasattr(geometry, "visual"):

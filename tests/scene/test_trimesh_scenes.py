@@ -19,6 +19,16 @@ def test_a_scene_is_drawn_as_its_meshes_where_they_are():
     assert render(trimesh.creation.box(), size=(8, 8)).color.shape == (8, 8, 4)
 
 
+def test_voxels_are_boxes():
+    voxels = trimesh.creation.box().voxelized(0.5)
+    frames = [
+        render(thing, size=(16, 12), mode="depth")
+        for thing in (voxels, trimesh.Scene([voxels]), voxels.as_boxes())
+    ]
+    for frame in frames[:2]:
+        assert np.array_equal(frame.color, frames[2].color)
+
+
 def test_a_camera_that_was_given_is_used():
     other = trimesh.Scene(trimesh.creation.box())
     pose = np.eye(4)

@@ -24,9 +24,9 @@ def scene_from_trimesh(thing: Any) -> Scene | None:
 
     Parameters
     ----------
-    thing : trimesh.Scene, Trimesh, PointCloud or Path
+    thing : trimesh.Scene, Trimesh, PointCloud, Path or VoxelGrid
     """
-    if not (hasattr(thing, "graph") or hasattr(thing, "vertices")):
+    if not any(hasattr(thing, name) for name in ("graph", "vertices", "as_boxes")):
         return None
     from ..trimesh_conversion import mesh_from_trimesh, scene_parts
 

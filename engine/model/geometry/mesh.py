@@ -518,7 +518,7 @@ class Mesh(ShownInNotebooks, Closed):
 
         Parameters
         ----------
-        geometry : trimesh.Trimesh, PointCloud, Path3D or Scene
+        geometry : trimesh.Trimesh, PointCloud, Path3D, VoxelGrid or Scene
             The parts of a scene are joined, each at its pose.
 
         Returns

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import AlphaMode
 from ..errors import InvalidArgumentError, warn
 from ..model.materials.linear_colors import LinearColor
 from ..model.materials.material import PARAMETERS, TEXTURE_SLOTS, Material
@@ -29,7 +30,7 @@ _PBR = {
 _NUMBERS = ("metallic", "roughness", "alpha_cutoff")
 #: What OBJ files call them, which keep them by these names.
 _KEPT = {"metallicFactor": "Pm", "roughnessFactor": "Pr"}
-_ALPHA_MODES = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend"}
+_ALPHA_MODES: dict[str, AlphaMode] = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend"}
 #: Maps of MTL files whose names do not begin with ``map_``.
 _MAPS = ("bump", "disp", "norm")
 #: What trimesh holds for colours that nobody gave.

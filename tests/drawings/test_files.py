@@ -73,6 +73,32 @@ def test_names_of_any_letters_are_written():
     check_pdf(page.pdf())
 
 
+def frames_of(*drawings):
+    """Return the frames of drawings that stand in one web page, by name: the first of each counts.
+
+    Each is (width, height), checked to be the one that its own drawing clips by.
+    """
+    found = {}
+    for drawing in drawings:
+        root = ElementTree.fromstring(drawing.svg())
+        for clip in root.iter(f"{SVG}clipPath"):
+            (rectangle,) = clip
+            size = rectangle.get("width"), rectangle.get("height")
+            assert found.setdefault(clip.get("id"), size) == size
+        clips = {layer.get("clip-path") for layer in root.iter()} - {None}
+        assert clips and clips <= {f"url(#{name})" for name in found}
+    return found
+
+
+def test_drawings_in_one_web_page_keep_their_own_frames():
+    small, wide = (line_drawing(scene(), size=size) for size in ((100, 50), (320, 60)))
+    assert len(frames_of(small, wide, small)) == 2
+    pages = (drawing_sheet(scene(), page=page, scale="1:1") for page in ("A4", "A3"))
+    frames_of(*pages, small)
+    ids = [one.get("id") for one in ElementTree.fromstring(drawing_sheet(e3d.box()).svg()).iter()]
+    assert len(set(ids) - {None}) == len([name for name in ids if name])
+
+
 def check_pdf(data):
     """Check that the table of a PDF leads to its objects, and lengths are right."""
     assert data.startswith(b"%PDF-1.5\n") and data.endswith(b"%%EOF\n")

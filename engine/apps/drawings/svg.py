@@ -37,6 +37,7 @@ def _lines(page: Page) -> Iterator[str]:
     yield f"<title>{_text(page.title)}</title>"
     if page.background is not None:
         yield f'<rect width="100%" height="100%" fill="{page.background}"/>'
+    yield from dict.fromkeys(_frame(one.clip) for one in page.groups if one.clip is not None)
     yield '<g fill="none" stroke-linecap="round" stroke-linejoin="round">'
     for group in page.groups:
         yield from _group(group)
@@ -47,12 +48,7 @@ def _lines(page: Page) -> Iterator[str]:
 def _group(group: Group) -> Iterator[str]:
     place = f' transform="translate({number(group.x)} {number(group.y)})"'
     place = place if group.x or group.y else ""
-    clip = ""
-    if group.clip is not None:
-        width, height = map(number, group.clip)
-        frame = f'<rect width="{width}" height="{height}"/>'
-        yield f'<clipPath id="{group.name}-frame">{frame}</clipPath>'
-        clip = f' clip-path="url(#{group.name}-frame)"'
+    clip = "" if group.clip is None else f' clip-path="url(#{_frame_name(group.clip)})"'
     yield f'<g id="{group.name}"{place}>'
     if group.title:
         yield f"<title>{_text(group.title)}</title>"
@@ -61,6 +57,23 @@ def _group(group: Group) -> Iterator[str]:
     for text in group.texts:
         yield _text_element(text)
     yield "</g>"
+
+
+def _frame(size: tuple[float, float]) -> str:
+    """Return the rectangle beyond which views of a size show nothing."""
+    width, height = map(number, size)
+    rectangle = f'<rect width="{width}" height="{height}"/>'
+    return f'<clipPath id="{_frame_name(size)}">{rectangle}</clipPath>'
+
+
+def _frame_name(size: tuple[float, float]) -> str:
+    """Return the identifier of a frame.
+
+    A web page that holds several drawings takes the first frame of a name for all of them: those of
+    one name are alike.
+    """
+    width, height = (f"{side:.3f}".replace(".", "") for side in size)
+    return f"frame-{width}-{height}"
 
 
 def _layer(name: str, layer: Layer, strokes: list[Strokes], clip: str) -> Iterator[str]:

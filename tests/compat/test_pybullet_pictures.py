@@ -267,6 +267,57 @@ def test_meshes_of_vertices_and_files_and_links(bullet):
     assert (compare() != masks).any()
 
 
+TENT = [[-0.5, -0.5, 0], [0.5, -0.5, 0], [0.5, 0.5, 0], [-0.5, 0.5, 0], [0, 0, 1]]
+SIDES = [0, 1, 2, 0, 2, 3, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4]
+
+
+def test_meshes_of_vertices_may_be_given_by_position(bullet):
+    usual = (0.5, [1, 1, 1], 1.0, "", [1, 1, 1], [0, 0, 1], 0, [1, 0, 0, 1], [1, 1, 1])
+    still = ([0, 0, 0], [0, 0, 0, 1])
+    shape = bullet.createVisualShape(bullet.GEOM_MESH, *usual, *still, TENT, SIDES)
+    body = bullet.createMultiBody(
+        *(1, -1, -1, [0, 0, 0], [0, 0, 0, 1], [0, 0, 0], [0, 0, 0, 1]),
+        *([1], [-1], [shape], [[0, 0, 0.1]], [[0, 0, 0, 1]], [[0, 0, 0]], [[0, 0, 0, 1]]),
+        *([0], [bullet.JOINT_FIXED], [[0, 0, 1]]),
+    )
+    assert set(np.unique(compare())) == {-1, body + (1 << 24)}
+
+
+@pytest.mark.filterwarnings("error")
+def test_vertices_of_collision_shapes_are_not_seen(bullet):
+    for faces in ({"indices": SIDES}, {}):
+        hull = bullet.createCollisionShape(bullet.GEOM_MESH, vertices=TENT, **faces)
+        body = bullet.createMultiBody(1, hull)
+        assert (compare() == -1).all()
+        bullet.removeBody(body)
+    box = bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=[0.2, 0.3, 0.4])
+    body = bullet.createMultiBody(1, box)
+    assert set(np.unique(compare())) == {-1, body}
+
+
+def test_files_are_those_of_the_folder_that_bullet_looked_in(bullet, tmp_path):
+    for folder, side in (("large", 1.0), ("small", 0.3)):
+        (tmp_path / folder).mkdir()
+        corners = f"v 0 0 0\nv {side} 0 0\nv 0 {side} 0\n"
+        (tmp_path / folder / "flag.obj").write_text(f"{corners}f 1 2 3\nf 3 2 1\n")
+    # Bullet has one folder for all clients, and reads files when bodies are made.
+    bullet.setAdditionalSearchPath(str(tmp_path / "large"))
+    flag = bullet.createVisualShape(bullet.GEOM_MESH, fileName="flag.obj")
+    bullet.createMultiBody(1, -1, flag)
+    other = bullet.connect(bullet.DIRECT)
+    bullet.setAdditionalSearchPath(str(tmp_path / "small"), other)
+    bullet.disconnect(other)
+    compare()
+    bullet.resetSimulation()
+    flag = bullet.createVisualShape(bullet.GEOM_MESH, fileName="flag.obj")
+    bullet.createMultiBody(1, -1, flag)
+    compare()
+    bullet.setAdditionalSearchPath(str(tmp_path))
+    bullet.createMultiBody(1, -1, flag)
+    with pytest.warns(e3d.Engine3DWarning, match="no such file"):
+        compare()
+
+
 def test_bodies_go_and_their_numbers_come_again(bullet):
     one, two = (bullet.loadURDF("cube.urdf", [0, y, 0.5]) for y in (-1.0, 1.0))
     assert {one, two} <= set(np.unique(compare()))

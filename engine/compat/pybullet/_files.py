@@ -25,6 +25,8 @@ from ...model.materials.textures import PlacedTexture, Texture
 # Where Bullet looks for a name.
 _PREFIXES = ("", "data", "../data", "../../data", "../../../data", "../../../../data")
 _STL_HEAD, _STL_ROW = 84, 50
+# What the last `setAdditionalSearchPath` of the process said: all clients share it, as in Bullet.
+_search = {"folder": ""}
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
 
 
@@ -35,14 +37,24 @@ class FileMesh(NamedTuple):
     texture: Texture | None
 
 
-def found_file(name: str, folders: tuple[str, ...]) -> str:
+def search_in(folder: str) -> None:
+    """Look for files in a folder, in place of the one before; resets of clients keep it."""
+    _search["folder"] = folder
+
+
+def search_folder() -> str:
+    """Return the folder in which files are looked for; empty for none."""
+    return _search["folder"]
+
+
+def found_file(name: str, folder: str) -> str:
     """Return the path of a file that Bullet names.
 
     Parameters
     ----------
     name : str
-    folders : tuple of str
-        Those of `setAdditionalSearchPath`, the last one first.
+    folder : str
+        That of `setAdditionalSearchPath` when Bullet read the file; empty for none.
 
     Raises
     ------
@@ -50,7 +62,7 @@ def found_file(name: str, folders: tuple[str, ...]) -> str:
         There is none.
     """
     data = sys.modules.get("pybullet_data")
-    places = [*_PREFIXES, *folders, *([] if data is None else [data.getDataPath()])]
+    places = [*_PREFIXES, folder, *([] if data is None else [data.getDataPath()])]
     for place in places:
         path = os.path.join(place, name)
         if os.path.isfile(path):

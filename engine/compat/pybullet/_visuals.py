@@ -73,18 +73,20 @@ class Shape:
         None until it is drawn, and if it cannot be.
     """
 
-    def __init__(self, form: ShapeForm, color: tuple[float, ...], given: Mesh | None) -> None:
+    def __init__(
+        self, form: ShapeForm, color: tuple[float, ...], given: Mesh | None, folder: str
+    ) -> None:
         self.form, self.color = form, color
         self.node: Node | None = None
-        self._given = given
+        self._given, self._folder = given, folder
         self._material = Material()
         self._own: Texture | None = None  # the texture of the file
         self._other: Texture | None = None  # one that a program gave it
         self._is_dressed = True  # whether it shows its own one
 
-    def show(self, scene: Scene, folders: tuple[str, ...]) -> None:
+    def show(self, scene: Scene) -> None:
         """Add a node; leave the shape out, with a warning, if there is no mesh for it."""
-        found = self._found(folders)
+        found = self._found()
         if found is None:
             return
         self._own = found.texture
@@ -113,7 +115,7 @@ class Shape:
         if self.node is not None:
             self.node.visible = self.color[3] != 0.0
 
-    def _found(self, folders: tuple[str, ...]) -> FileMesh | None:
+    def _found(self) -> FileMesh | None:
         form = self.form
         if self._given is not None:
             return FileMesh(self._given, None)
@@ -122,11 +124,11 @@ class Shape:
             return FileMesh(made_form(form.kind, form.sizes), texture)
         if form.kind != MESH or not form.file:
             what = _KINDS.get(form.kind, f"shape of kind {form.kind}")
-            what = "mesh of vertices made before install()" if form.kind == MESH else what
+            what = "mesh of vertices from before install()" if form.kind == MESH else what
             warn(f"a {what} of PyBullet is not drawn")
             return None
         try:
-            return read_mesh(found_file(form.file, folders))
+            return read_mesh(found_file(form.file, self._folder))
         except Engine3DError as error:
             warn(f"a mesh of PyBullet is not drawn: {error}")
             return None

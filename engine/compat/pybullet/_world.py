@@ -8,7 +8,7 @@ not tell (textures, which shape of a link was painted, vertices) is noted from c
 from __future__ import annotations
 
 from itertools import zip_longest
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...model.scene.selection import NodeSelection
+from ._files import search_folder
+from ._forms import MESH
 from ._visuals import Shape, form_of
 
 # Of getDynamicsInfo: the pose of the inertial frame, and the kind of body.
@@ -32,6 +34,21 @@ _BODY = (1 << _LINK_SHIFT) - 1
 _COLOR = 7
 # A scene whose object IDs are beyond this begins anew.
 _MOST_ID = 1 << 16
+
+
+class Origin(NamedTuple):
+    """What PyBullet does not tell of how a body was made.
+
+    Attributes
+    ----------
+    folder : str
+        Where Bullet looked for its files.
+    meshes : dict of int to list of Mesh
+        Those of vertices, by link, in the order of its shapes.
+    """
+
+    folder: str
+    meshes: dict[int, list[Mesh]]
 
 
 class _Body:
@@ -52,16 +69,15 @@ class _Body:
         Whether one of them has.
     """
 
-    def __init__(
-        self, place: tuple[Any, ...], rows: tuple[Any, ...], given: dict[int, list[Mesh]]
-    ) -> None:
+    def __init__(self, place: tuple[Any, ...], rows: tuple[Any, ...], origin: Origin) -> None:
         self.place, self.rows = place, rows
-        given = {link: list(meshes) for link, meshes in given.items()}
+        given = {link: list(meshes) for link, meshes in origin.meshes.items()}
         self.shapes: list[Shape] = []
         for row in rows:
             form = form_of(row)
-            meshes = given.get(form.link) if form.kind == 5 and not form.file else None
-            self.shapes.append(Shape(form, row[7], meshes.pop(0) if meshes else None))
+            meshes = given.get(form.link) if form.kind == MESH and not form.file else None
+            mesh = meshes.pop(0) if meshes else None
+            self.shapes.append(Shape(form, row[_COLOR], mesh, origin.folder))
         self.links = sorted({shape.form.link for shape in self.shapes} - {-1})
         self.is_shown = self.is_drawn = self._is_left_out = False
 
@@ -120,8 +136,12 @@ class World:
     scene : Scene
     textures : dict of int to Texture
         Those that were loaded, by pybullet's number.
-    folders : list of str
-        Where files are looked for, the last one first.
+    visuals : dict of int to list of Mesh
+        What visual shapes have that name no file, by pybullet's number.
+    hulls : set of int
+        The collision shapes that have vertices instead of a file.
+    origins : dict of int to Origin
+        How bodies were made.
     """
 
     def __init__(self, bullet: Any, client: int) -> None:
@@ -129,10 +149,9 @@ class World:
         self._bodies: dict[int, _Body] = {}
         self._begin_scene()
         self.textures: dict[int, Texture] = {}
-        self.folders: list[str] = []
-        # Meshes of vertices: by number of the visual shape, and by body and link.
-        self.visuals: dict[int, Mesh] = {}
-        self.given: dict[int, dict[int, list[Mesh]]] = {}
+        self.visuals: dict[int, list[Mesh]] = {}
+        self.hulls: set[int] = set()
+        self.origins: dict[int, Origin] = {}
         self._selection: NodeSelection | None = None
         self._locals = np.zeros((0, 4, 4))
         self._frames = np.zeros(0, np.int64)
@@ -149,17 +168,18 @@ class World:
         self._is_new = True
 
     def clear(self) -> None:
-        """Forget all bodies, shapes and textures; folders stay."""
+        """Forget all bodies, shapes and textures."""
         self._bodies.clear()
         self._begin_scene()
         self.textures.clear()
         self.visuals.clear()
-        self.given.clear()
+        self.hulls.clear()
+        self.origins.clear()
 
     def forget(self, uid: int) -> None:
         """Forget a body that was removed."""
         self._drop(uid)
-        self.given.pop(uid, None)
+        self.origins.pop(uid, None)
 
     def body(self, uid: int) -> _Body:
         """Return the shapes of a body as they are now."""
@@ -171,7 +191,8 @@ class World:
             return body
         if body is None or not body.is_of(place, rows):
             self._drop(uid)
-            body = self._bodies[uid] = _Body(place, rows, self.given.get(uid, {}))
+            origin = self.origins.get(uid) or Origin(search_folder(), {})
+            body = self._bodies[uid] = _Body(place, rows, origin)
             if dynamics[_KIND] == _SOFT:
                 warn("soft bodies of PyBullet are not drawn")
                 body.leave_out()
@@ -234,7 +255,7 @@ class World:
         nodes, places, frames, masks, count = [], [], [], {}, 0
         for uid, body in bodies:
             for shape in () if body.is_shown else body.shapes:
-                shape.show(self.scene, tuple(self.folders[::-1]))
+                shape.show(self.scene)
             body.is_shown = True
             drawn = body.drawn()
             body.is_drawn = bool(drawn)

@@ -10,6 +10,7 @@ import functools
 import inspect
 import types
 from collections.abc import Callable
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -17,18 +18,21 @@ import numpy as np
 from ...base import linalg
 from ...base.optional_packages import require
 from ...errors import Engine3DError, warn
-from ._files import found_file, plain_mesh, read_texture
-from ._world import World
+from ...model.geometry.mesh import Mesh
+from ._arguments import CLIENT, arguments
+from ._files import found_file, plain_mesh, read_texture, search_folder, search_in
+from ._forms import MESH
+from ._world import Origin, World
 from ._worlds import client_of, forget
 from .camera_image import getCameraImage
 
-_CLIENT = "physicsClientId"
 _NO_TEXTURE = -2
-# The arguments of changeVisualShape, and what they are if they are not given.
-_OF_CHANGE = ("objectUniqueId", "linkIndex", "shapeIndex", "textureUniqueId", "rgbaColor")
-_OF_CHANGE += ("specularColor", "flags")
+# The arguments of changeVisualShape if they are not given.
 _USUAL = {"objectUniqueId": -1, "linkIndex": -1, "shapeIndex": -1, "textureUniqueId": _NO_TEXTURE}
+_WHICH = tuple(_USUAL)
 _USUAL |= {"rgbaColor": None}
+# What a file without a name shows.
+_NOTHING = plain_mesh(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 3)), None)
 
 
 class _Replaced:
@@ -74,28 +78,23 @@ def _noted(
     return note(lambda: original(*args, **keywords), *args, **keywords)
 
 
-def _given(args: tuple[Any, ...], keywords: dict[str, Any], *names: str) -> dict[str, Any]:
-    """Return arguments by name; those that are named last are the client's number."""
-    return {_CLIENT: 0, **dict(zip((*names, _CLIENT), args, strict=False)), **keywords}
-
-
 def _world(given: dict[str, Any]) -> World:
-    return client_of(given.get(_CLIENT, 0)).world
+    return client_of(given[CLIENT]).world
 
 
 def _search_path(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    given = _given(args, keywords, "path")
+    given = arguments("setAdditionalSearchPath", args, keywords)
     result = call()
-    _world(given).folders.append(given["path"])
+    search_in(given["path"])
     return result
 
 
 def _load_texture(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    given = _given(args, keywords, "textureFilename")
+    given = arguments("loadTexture", args, keywords)
     number, world = call(), _world(given)
     if number >= 0:
         try:
-            path = found_file(given["textureFilename"], tuple(world.folders[::-1]))
+            path = found_file(given["textureFilename"], search_folder())
             world.textures[number] = read_texture(path)
         except Engine3DError as error:
             warn(f"a texture of PyBullet is not drawn: {error}")
@@ -103,8 +102,8 @@ def _load_texture(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
 
 
 def _change_shape(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    given = {**_USUAL, **_given(args, keywords, *_OF_CHANGE)}
-    uid, link, place, number = (given[name] for name in _OF_CHANGE[:4])
+    given = {**_USUAL, **arguments("changeVisualShape", args, keywords)}
+    uid, link, place, number = (given[name] for name in _WHICH)
     world = _world(given)
     try:
         world.body(uid)  # as it is before
@@ -122,51 +121,75 @@ def _change_shape(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
 
 
 def _create_visual(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    number = call()
-    vertices, indices = keywords.get("vertices"), keywords.get("indices")
-    if number >= 0 and vertices is not None and indices is not None:
-        positions = np.asarray(vertices, np.float64).reshape(-1, 3)
-        normals, uvs = keywords.get("normals"), keywords.get("uvs")
-        if normals is None or len(normals) != len(positions):
-            normals = linalg.normalize(positions)  # as TinyRenderer has it
-        if uvs is not None and len(uvs) != len(positions):
-            uvs = None
-        mesh = plain_mesh(positions, np.reshape(indices, (-1, 3)), normals, uvs)
-        _world(keywords).visuals[number] = mesh
+    given = arguments("createVisualShape", args, keywords)
+    number, visuals = call(), _world(given).visuals
+    visuals.pop(number, None)  # of another shape that had its number
+    if number >= 0 and _has_vertices(given) and given.get("indices") is not None:
+        # A file without a name is a shape of its own, and empty.
+        visuals[number] = [_NOTHING] * (given.get("fileName") == "") + [_mesh_of(given)]
     return number
 
 
+def _mesh_of(given: dict[str, Any]) -> Mesh:
+    """Return the mesh of the vertices of a visual shape."""
+    positions = np.asarray(given["vertices"], np.float64).reshape(-1, 3)
+    normals, uvs = given.get("normals"), given.get("uvs")
+    if normals is None or len(normals) != len(positions):
+        normals = linalg.normalize(positions)  # as TinyRenderer has it
+    if uvs is not None and len(uvs) != len(positions):
+        uvs = None
+    return plain_mesh(positions, np.reshape(given["indices"], (-1, 3)), normals, uvs)
+
+
+def _create_collision(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
+    given = arguments("createCollisionShape", args, keywords)
+    number, hulls = call(), _world(given).hulls
+    hulls.discard(number)
+    if number >= 0 and _has_vertices(given):
+        hulls.add(number)
+    return number
+
+
+def _has_vertices(given: dict[str, Any]) -> bool:
+    return given.get("shapeType") == MESH and given.get("vertices") is not None
+
+
 def _create_body(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    names = ("baseMass", "baseCollisionShapeIndex", "baseVisualShapeIndex")
-    given = {**dict(zip(names, args, strict=False)), **keywords}
-    visuals = [given.get("baseVisualShapeIndex", -1), *given.get("linkVisualShapeIndices", ())]
+    given = arguments("createMultiBody", args, keywords)
     result = call()
-    world = _world(keywords)
-    made = {
-        link: [world.visuals[visual]]
-        for link, visual in enumerate(visuals, start=-1)
-        if visual in world.visuals
-    }
-    if made:
-        bodies = result if isinstance(result, (tuple, list)) else [result]
-        world.given.update(dict.fromkeys(bodies, made))
+    world = _world(given)
+    pairs = zip_longest(_shapes(given, "Visual"), _shapes(given, "Collision"), fillvalue=-1)
+    meshes = {}
+    for link, (visual, collision) in enumerate(pairs, start=-1):
+        if visual >= 0:
+            meshes[link] = world.visuals.get(visual, [])
+        elif collision in world.hulls:  # TinyRenderer shows nothing of it, either
+            meshes[link] = [_NOTHING]
+    bodies = result if isinstance(result, (tuple, list)) else [result]
+    world.origins.update(dict.fromkeys(bodies, Origin(search_folder(), meshes)))
     return result
 
 
+def _shapes(given: dict[str, Any], kind: str) -> list[int]:
+    """Return the shapes of a kind that a body has, of its base and its links."""
+    links = given.get(f"link{kind}ShapeIndices")
+    return [given.get(f"base{kind}ShapeIndex", -1), *(() if links is None else links)]
+
+
 def _reset(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    _world(_given(args, keywords, "flags")).clear()
+    _world(arguments("resetSimulation", args, keywords)).clear()
     return call()
 
 
 def _remove(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    given = _given(args, keywords, "bodyUniqueId")
+    given = arguments("removeBody", args, keywords)
     result = call()
     _world(given).forget(given["bodyUniqueId"])  # another body may get its number
     return result
 
 
 def _disconnect(call: Callable[[], Any], *args: Any, **keywords: Any) -> Any:
-    forget(_given(args, keywords)[_CLIENT])
+    forget(arguments("disconnect", args, keywords)[CLIENT])
     return call()
 
 
@@ -187,6 +210,7 @@ _NOTES: dict[str, Callable[..., Any]] = {
     "changeVisualShape": _change_shape,
     "resetVisualShapeData": _change_shape,
     "createVisualShape": _create_visual,
+    "createCollisionShape": _create_collision,
     "createMultiBody": _create_body,
     "removeBody": _remove,
     "resetSimulation": _reset,

@@ -77,6 +77,8 @@ _UNDRAWN = {
     "vtkSkybox": "sky boxes",
     "vtkWidgetRepresentation": "widgets",
     "vtkTextActor3D": "texts that lie in space",
+    "vtkAxisActor2D": "rulers",
+    "vtkLegendScaleActor": "legend scales",
 }
 
 

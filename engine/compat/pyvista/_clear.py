@@ -7,6 +7,7 @@ in order; with alphas close to 0 the order does not matter, and blending is addi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -19,7 +20,9 @@ from ...model.materials.textures import Texture
 from ...model.scene.cameras import Camera
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.scene import Scene
+from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
+from ._clear_layers import Fragments, add_fragments, blended, fragments_of
 from ._edges import polygon_edges
 from ._lights import Lamp, add_lights
 from ._line_marks import strokes
@@ -36,8 +39,14 @@ def mixture(
     lamps: list[Lamp],
     view: View,
     peels: bool,
+    shaded: Callable[[Part], Frame],
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return what clear parts show before solid ones.
+
+    Parameters
+    ----------
+    shaded : callable
+        Draws a part alone, as a solid one, among the shadows of the others.
 
     Returns
     -------
@@ -47,13 +56,49 @@ def mixture(
         Alpha.
     """
     clear = [each for part in clear for each in _with_edges(part, view)]
+    is_plain = all(lamp.is_plain for lamp in lamps)
+    known = [part for part in clear if _is_known(part, is_plain)]
     draw = _Passes(solid, clear, lamps, view)
     cover = draw.radiance(is_white=True)[..., :1]
-    if peels:
+    if peels and len(known) == len(clear):
         return np.minimum(draw.radiance(), cover), cover
+    if peels:  # all of them have a place in the order
+        found = _fragments(solid, clear, lamps, view, shaded)
+        return np.minimum(blended(found, cover.shape[:2]), cover), cover
+    if len(known) < len(clear):
+        draw = _Passes(solid, known, lamps, view)
     weight = draw.radiance(is_white=True, is_faint=True)[..., :1]
-    color = draw.radiance(is_faint=True) / np.maximum(weight, np.float32(1e-30))
+    color = draw.radiance(is_faint=True)
+    if len(known) < len(clear):
+        others = [part for part in clear if not _is_known(part, is_plain)]
+        color, weight = color.copy(), weight.copy()
+        add_fragments(_fragments(solid, others, lamps, view, shaded), color, weight, _FAINT)
+    color /= np.maximum(weight, np.float32(1e-30))
     return np.clip(color, 0.0, 1.0) * cover, cover
+
+
+def _is_known(part: Part, is_plain: bool) -> bool:
+    """Return whether the core knows the light of a part, of lamps that are all plain or not."""
+    return part.look.is_unlit or (is_plain and not part.look.is_physical)
+
+
+def _fragments(
+    solid: list[Part],
+    clear: list[Part],
+    lamps: list[Lamp],
+    view: View,
+    shaded: Callable[[Part], Frame],
+) -> Fragments:
+    """Return what clear parts show before solid ones, layer by layer, as solid parts are lit."""
+
+    def most_layers(part: Part) -> int:
+        faint = _Passes(solid, [part.opaque()], lamps, view, blends=True)
+        return round(float(faint.radiance(is_white=True, is_faint=True).max()) / _FAINT)
+
+    def alphas(part: Part) -> NDArray[np.float32]:
+        return _Passes(solid, [part], lamps, view).radiance(is_white=True)[..., 0]
+
+    return fragments_of(clear, view.is_parallel, most_layers, alphas, shaded)
 
 
 def _with_edges(part: Part, view: View) -> list[Part]:
@@ -85,7 +130,9 @@ class _Passes:
         clear: list[Part],
         lamps: list[Lamp],
         view: View,
+        blends: bool = False,
     ) -> None:
+        self._blends = blends
         self._renderer = Renderer((view.width, view.height), color_space="linear")
         self._camera = Camera(view.projection), np.eye(4)
         self._scene = Scene(background=(0, 0, 0), ambient=(0, 0, 0))
@@ -119,7 +166,10 @@ class _Passes:
                 mesh = mesh.mesh
             if part.paint.rgba is not None:
                 mesh.colors = shown.paint.rgba
-            mesh.materials = [_material(part, shown.paint, is_white, is_faint)]
+            material = _material(part, shown.paint, is_white, is_faint)
+            if self._blends:
+                material.alpha_mode = "blend"
+            mesh.materials = [material]
         frame = self._renderer.render(self._scene, self._camera, outputs=("radiance",), cull="none")
         return frame.radiance
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ...model.materials.colors import linear_from_display
 from ...model.materials.textures import Texture
 from ...model.scene.cameras import Camera
+from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 from ...rendering.options import MAX_LINE
@@ -34,6 +35,7 @@ from ._surroundings import Surroundings
 _OF_LIGHT = {"object_id", "albedo", "world_normal", "world_position"}
 _OF_FACETS = {"object_id", "face_id", "albedo", "world_position"}
 _OF_EDGES = {"object_id", "face_id"}
+_MIDDLE = (0.5, 0.5)
 _AT_ORIGIN = np.eye(4)
 #: Those of `Maps`.
 _MAPS = ("material", "emissive")
@@ -63,7 +65,12 @@ def draw_layer(
     if solid:
         _Solid(solid, lamps, view, points, surroundings).draw(samples)
     if clear:
-        samples.blend(*mixture(solid, clear, lamps, view, peels))
+
+        def shaded(part: Part) -> Frame:
+            alone = _Solid([part], lamps, view, PLAIN, surroundings, casters=solid)
+            return alone.picture(_MIDDLE, {"depth", "face_id"})
+
+        samples.blend(*mixture(solid, clear, lamps, view, peels, shaded))
 
 
 def _spread(part: Part, view: View) -> Part:
@@ -151,7 +158,10 @@ class _Light(NamedTuple):
 
 
 class _Solid:
-    """Parts that hide what is behind them."""
+    """Parts that hide what is behind them.
+
+    ``casters`` throw shadows on them; by default, they themselves do.
+    """
 
     def __init__(
         self,
@@ -160,6 +170,7 @@ class _Solid:
         view: View,
         points: Property,
         surroundings: Surroundings | None,
+        casters: list[Part] | None = None,
     ) -> None:
         self._lamps, self._view, self._points = lamps, view, points
         self._around = surroundings
@@ -169,7 +180,9 @@ class _Solid:
         self._scene = Scene(background=None, ambient=(0, 0, 0))
         self._unfinished: dict[int, _Unfinished] = {}
         self._maps = {name: scene for name in _MAPS if (scene := _map_scene(parts, name))}
-        self._shadows = [_shadow_scene(parts, lamp) if lamp.casts else None for lamp in lamps]
+        self._shadows = [
+            _shadow_scene(parts, casters, lamp) if lamp.casts else None for lamp in lamps
+        ]
         self._outputs = {"color"}
         add_lights(self._scene, lamps)
         is_plain = all(lamp.is_plain for lamp in lamps)
@@ -195,13 +208,23 @@ class _Solid:
 
     def draw(self, samples: Samples) -> None:
         """Draw the parts over samples."""
-        renderer = Renderer((self._view.width, self._view.height), color_space="linear")
-        for number, (x, y) in enumerate(samples.pattern):
-            camera = Camera(_moved(self._view, 0.5 - x, 0.5 - y))
-            frame = self._render(renderer, self._scene, camera, self._outputs)
-            if self._unfinished:
-                self._finish(frame, self._light(renderer, camera))
-            samples.put(number, frame.color)
+        renderer = self._renderer()
+        for number, place in enumerate(samples.pattern):
+            samples.put(number, self._picture(renderer, place, self._outputs).color)
+
+    def picture(self, place: tuple[float, float], outputs: set[str]) -> Frame:
+        """Draw the parts at a place in each pixel, with other outputs than the colour."""
+        return self._picture(self._renderer(), place, self._outputs | outputs)
+
+    def _renderer(self) -> Renderer:
+        return Renderer((self._view.width, self._view.height), color_space="linear")
+
+    def _picture(self, renderer: Renderer, place: tuple[float, float], outputs: set[str]) -> Frame:
+        camera = Camera(_moved(self._view, 0.5 - place[0], 0.5 - place[1]))
+        frame = self._render(renderer, self._scene, camera, outputs)
+        if self._unfinished:
+            self._finish(frame, self._light(renderer, camera))
+        return frame
 
     def _light(self, renderer: Renderer, camera: Camera) -> _Light:
         """Return what the core tells of the light of all pixels."""
@@ -306,16 +329,25 @@ def _map_scene(parts: list[Part], name: str) -> Scene | None:
     return scene
 
 
-def _shadow_scene(parts: list[Part], lamp: Lamp) -> Scene:
-    """Return a scene of white surfaces which is black where a lamp does not arrive."""
+def _shadow_scene(parts: list[Part], casters: list[Part] | None, lamp: Lamp) -> Scene:
+    """Return a scene of white surfaces which is black where a lamp does not arrive.
+
+    Casters throw shadows, and hide parts behind them; without them, the parts do.
+    """
     scene = Scene(background=None, ambient=(0, 0, 0))
     add_lights(scene, [lamp._replace(color=np.ones(3))])
     for part in parts:
-        white = replace(part, paint=Paint(), spot_colors=None, face_rgba=None)
-        material = white.material()
-        material.color, material.unlit = (1.0, 1.0, 1.0), False
-        white.added(scene, material)
+        _add_white(scene, part).cast_shadows = casters is None
+    for part in casters or ():
+        _add_white(scene, part)
     return scene
+
+
+def _add_white(scene: Scene, part: Part) -> Node:
+    white = replace(part, paint=Paint(), spot_colors=None, face_rgba=None)
+    material = white.material()
+    material.color, material.unlit = (1.0, 1.0, 1.0), False
+    return white.added(scene, material)
 
 
 def _values(array: NDArray[np.float32], rows: NDArray[np.intp]) -> NDArray[np.float64]:

@@ -59,6 +59,21 @@ class Paint:
             uvs=None if self.uvs is None else self.uvs[rows],
         )
 
+    def opaque(self) -> Paint:
+        """Return the same colours with alphas of 1."""
+        rgba, image = self.rgba, self.image
+        if rgba is not None:
+            rgba = rgba.copy()
+            rgba[:, 3] = 255
+        if image is not None and image.pixels.shape[2] == 4:
+            image = Texture(
+                image.pixels[..., :3],
+                color_space=image.color_space,
+                filter=image.filter,
+                wrap=image.wrap,
+            )
+        return replace(self, rgba=rgba, image=image, is_clear=False)
+
     def baked(self) -> Paint:
         """Return the same with a colour for each point, that of the nearest pixel of the image."""
         if self.image is None or self.uvs is None:
@@ -147,10 +162,39 @@ class Part:
         a, b, c = (self.places[self.faces[:, k]] for k in range(3))
         across = linalg.cross(b - a, c - a)
         towards = across[:, 2] if is_parallel else -(across * a).sum(1)
-        kept = (towards >= 0.0) == front
+        return self.of_faces((towards >= 0.0) == front)
+
+    def of_faces(self, kept: NDArray[np.bool_]) -> Part:
+        """Return some of the faces; ``kept`` is (F,)."""
         edges = None if self.edges is None else self.edges[kept]
         rgba = None if self.face_rgba is None else self.face_rgba[kept]
         return replace(self, faces=self.faces[kept], edges=edges, face_rgba=rgba)
+
+    def standing_apart(self) -> Part:
+        """Return the same with faces of its own wherever it stands."""
+        if self.spots is None:
+            return self
+        count, size = len(self.spots), len(self.places)
+        offsets, sizes = self.spots[:, None, :3], self.spots[:, None, 3:]
+        firsts = np.arange(count, dtype=np.int32) * np.int32(size)
+        colors = None if self.spot_colors is None else np.repeat(self.spot_colors, size, 0)
+        return replace(
+            self,
+            places=(offsets + sizes * self.places).reshape(-1, 3),
+            faces=(firsts[:, None, None] + self.faces).reshape(-1, 3),
+            normals=None if self.normals is None else np.tile(self.normals, (count, 1)),
+            paint=self.paint if colors is None else replace(self.paint, rgba=colors),
+            spots=None,
+            spot_colors=None,
+        )
+
+    def opaque(self) -> Part:
+        """Return the same where nothing shows through, without edges."""
+        return replace(
+            self,
+            look=replace(self.look, opacity=1.0, edge_width=0.0),
+            paint=self.paint.opaque(),
+        )
 
     def with_own_corners(self) -> Part:
         """Return the same with the colours of faces at vertices that they do not share."""

@@ -48,8 +48,10 @@ def scene_of(renderer: Any) -> Scene:
         scene.environment = around.environment
     elif around is not None:
         warn("the scene is without its environment texture, which is turned")
-    lights = len(list(scene.nodes))
-    add_lights(scene, lamps_of(renderer, view))
+    lights, lamps = len(list(scene.nodes)), lamps_of(renderer, view)
+    if not all(lamp.is_plain for lamp in lamps):
+        warn("the scene is without the cones and the attenuation of lights")
+    add_lights(scene, lamps)
     for light in list(scene.nodes)[lights:]:
         light.pose = np.asarray(inverse(view.view)) @ np.asarray(light.pose)
     return scene

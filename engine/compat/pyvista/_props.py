@@ -70,6 +70,13 @@ _LABELS = "vtkLabelPlacementMapper"
 _BARE = ("vtkActor2D", "vtkTexturedActor2D")
 #: Antialiasing: four samples a pixel stand for all kinds.
 _DRAWN_PASSES = ("vtkSSAAPass", "vtkOpenGLFXAAPass")
+#: Effects that PyVista gives a renderer, by the classes of their passes.
+_EFFECTS = {
+    "vtkEDLShading": "eye-dome lighting",
+    "vtkSSAOPass": "ambient occlusion",
+    "vtkGaussianBlurPass": "blur",
+    "vtkDepthOfFieldPass": "depth of field",
+}
 #: What VTK draws and engine3d does not, by class.
 _UNDRAWN = {
     "vtkVolume": "volumes",
@@ -157,7 +164,8 @@ def passes_of(renderer: Any) -> list[str]:
 
 def _effects(renderer: Any) -> list[str]:
     """Return the effects of a renderer that are not drawn."""
-    names = [f"the effect {name}" for name in passes_of(renderer) if name not in _DRAWN_PASSES]
+    passes = [name for name in passes_of(renderer) if name not in _DRAWN_PASSES]
+    names = [f"{_EFFECTS.get(name, 'the effect')} ({name})" for name in passes]
     if renderer.GetUseHiddenLineRemoval():
         names.append("the removal of hidden lines")
     if renderer.GetUseShadows():

@@ -94,6 +94,22 @@ def test_clear_points_are_lit_where_they_stand():
     assert (np.abs(clear - solid).max(-1) > 2).mean() < 0.01
 
 
+def test_clear_points_in_no_order_are_told():
+    with pytest.warns(e3d.Engine3DWarning, match="clear lines and points are drawn as matt"):
+        drawn(
+            pv.PolyData(np.eye(3)), spot(cone_angle=20), opacity=0.5, render_points_as_spheres=True
+        )
+
+
+def test_layers_beyond_count_are_told(monkeypatch):
+    from engine3d.compat.pyvista import _clear_layers
+
+    monkeypatch.setattr(_clear_layers, "_MOST_SHEETS", 2)
+    planes = pv.merge([plane(0.1 * number) for number in range(5)])
+    with pytest.warns(e3d.Engine3DWarning, match="only the nearest"):
+        drawn(planes, spot(cone_angle=20), opacity=0.5)
+
+
 def test_scenes_say_that_lights_lose_their_cones():
     pl = plotter(lighting="none")
     pl.add_mesh(plane())

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...errors import warn
 from ...model.materials.linear_colors import linear
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
@@ -57,22 +58,25 @@ def mixture(
     """
     clear = [each for part in clear for each in _with_edges(part, view)]
     is_plain = all(lamp.is_plain for lamp in lamps)
-    known = [part for part in clear if _is_known(part, is_plain)]
+    unknown = [part for part in clear if not _is_known(part, is_plain)]
     draw = _Passes(solid, clear, lamps, view)
     cover = draw.radiance(is_white=True)[..., :1]
-    if peels and len(known) == len(clear):
+    if peels and not unknown:
         return np.minimum(draw.radiance(), cover), cover
     if peels:  # all of them have a place in the order
         found = _fragments(solid, clear, lamps, view, shaded)
         return np.minimum(blended(found, cover.shape[:2]), cover), cover
-    if len(known) < len(clear):
-        draw = _Passes(solid, known, lamps, view)
+    faces = [part for part in unknown if part.is_face]
+    if len(faces) < len(unknown):  # lines cross too often for sheets
+        warn("clear lines and points are drawn as matt, in light without cones and attenuation")
+    if faces:
+        rest = [part for part in clear if not part.is_face or _is_known(part, is_plain)]
+        draw = _Passes(solid, rest, lamps, view)
     weight = draw.radiance(is_white=True, is_faint=True)[..., :1]
     color = draw.radiance(is_faint=True)
-    if len(known) < len(clear):
-        others = [part for part in clear if not _is_known(part, is_plain)]
+    if faces:
         color, weight = color.copy(), weight.copy()
-        add_fragments(_fragments(solid, others, lamps, view, shaded), color, weight, _FAINT)
+        add_fragments(_fragments(solid, faces, lamps, view, shaded), color, weight, _FAINT)
     color /= np.maximum(weight, np.float32(1e-30))
     return np.clip(color, 0.0, 1.0) * cover, cover
 

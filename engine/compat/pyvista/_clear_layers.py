@@ -16,7 +16,7 @@ from ...errors import warn
 from ...rendering.frame import Frame
 from ._parts import Part
 
-_MOST_SHEETS = 96  # of a part: each is a picture of its own
+_MOST_SHEETS = 32  # of a part: each is a picture of its own
 
 
 class Fragments(NamedTuple):

@@ -70,9 +70,12 @@ def _add_info(command: argparse.ArgumentParser) -> None:
     input_options.add_robot(command)
 
 
+#: Those that ``completion`` has a script for.
+SHELLS = ("bash", "zsh", "fish", "powershell")
+
+
 def _add_completion(command: argparse.ArgumentParser) -> None:
-    shells = ("bash", "zsh", "fish", "powershell")
-    command.add_argument("shell", choices=shells, help="which shell")
+    command.add_argument("shell", choices=SHELLS, help="which shell")
 
 
 def _add_plugins(command: argparse.ArgumentParser) -> None:

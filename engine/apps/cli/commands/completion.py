@@ -9,6 +9,8 @@ import argparse
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from . import SHELLS
+
 FILE_METAVARS = ("FILE", "FILE|NAME", "MODEL", "IN", "OUT")
 
 
@@ -273,9 +275,5 @@ def _powershell_quoted(text: str) -> str:
     return "'" + text.replace("'", "''") + "'"
 
 
-SCRIPTS = {
-    "bash": bash_script,
-    "zsh": zsh_script,
-    "fish": fish_script,
-    "powershell": powershell_script,
-}
+_SCRIPTS = (bash_script, zsh_script, fish_script, powershell_script)
+SCRIPTS = dict(zip(SHELLS, _SCRIPTS, strict=True))

@@ -5,8 +5,9 @@ In: a thing to show. Out: nothing; lights and ground are beside the scene, not i
 
 from __future__ import annotations
 
+import contextlib
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -106,15 +107,8 @@ def show(
     refuse_unknown("show", marks, (*keywords_of(show), *MarkKeywords.__annotations__))
     taken = take_marks(dict(marks))
     motion = {"title": title, "up": up, "update": update, "period": period}
-    try:
+    with _telling_of_notebooks():
         _show(thing, size, format, settings_for(look, marks=taken), marks=taken, **motion)
-    except DisplayError as error:
-        if not _in_a_kernel():
-            raise
-        raise DisplayError(
-            f"{error}; in a notebook, engine3d.notebook.View(scene) shows it in the page, and a "
-            "frame shows by itself at the end of a cell"
-        ) from None
 
 
 def show_viewed(viewed: ViewedScene, settings: Settings, size: tuple[int, int] | None) -> None:
@@ -127,7 +121,22 @@ def show_viewed(viewed: ViewedScene, settings: Settings, size: tuple[int, int] |
     InvalidArgumentError
         The size is none of a picture.
     """
-    _show_scene(viewed, settings, None if size is None else check_size(size))
+    with _telling_of_notebooks():
+        _show_scene(viewed, settings, None if size is None else check_size(size))
+
+
+@contextlib.contextmanager
+def _telling_of_notebooks() -> Iterator[None]:
+    """Say in the error of a missing screen what notebooks have instead."""
+    try:
+        yield
+    except DisplayError as error:
+        if not _in_a_kernel():
+            raise
+        raise DisplayError(
+            f"{error}; in a notebook, engine3d.notebook.View(scene) shows it in the page, and a "
+            "frame shows by itself at the end of a cell"
+        ) from None
 
 
 def _in_a_kernel() -> bool:

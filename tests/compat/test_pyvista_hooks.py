@@ -60,13 +60,93 @@ def test_depths_are_negative_distances(installed, is_parallel):
     assert np.isfinite(depth).any()
 
 
-def test_a_window_without_a_display_is_told(installed, monkeypatch):
+@pytest.mark.parametrize("goes_on", [False, True])
+def test_a_window_without_a_display_is_told(installed, monkeypatch, goes_on):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     pl = plotter(off_screen=False)
     pl.add_mesh(pv.Cube())
     with pytest.warns(e3d.errors.Engine3DWarning, match="not shown"):
-        pl.show()
+        pl.show(interactive_update=goes_on)
+    if goes_on:
+        pl.update()
+        pl.close()
+
+
+class FakeWindow:
+    """Keeps what is presented; tells events that a test puts into ``waiting``."""
+
+    def __init__(self, size, title):
+        self.size, self.title, self.closed = size, title, False
+        self.pictures, self.waiting = [], []
+
+    def present(self, pixels):
+        assert not self.closed
+        self.pictures.append(pixels)
+
+    def events(self):
+        found, self.waiting = self.waiting, []
+        return found
+
+    def close(self):
+        self.closed = True
+
+
+def test_a_window_stays_open_while_the_program_goes_on(installed, monkeypatch):
+    from engine3d.compat.pyvista import _live_window
+
+    opened = []
+
+    def opens(*how):
+        opened.append(FakeWindow(*how))
+        return opened[-1]
+
+    def update():
+        pv.Plotter.last_update_time = 0.0  # of the last time that something was drawn
+        pl.update()
+        return window.pictures[-1]
+
+    monkeypatch.setattr(_live_window, "Window", opens)
+    pl = plotter(off_screen=False, title="Live")
+    actor = pl.add_mesh(pv.Cube(), color="red", lighting=False)
+    pl.show(interactive_update=True)
+    (window,) = opened
+    assert (window.size, window.title) == (SIZE, "Live")
+    assert np.array_equal(window.pictures[-1], pl.screenshot())
+    actor.prop.color = "blue"
+    assert (update()[..., 2] > 200).any() and not (update()[..., 0] == 255).all()
+    before = pl.camera.position
+    middle = {"x": SIZE[0] // 2, "y": SIZE[1] // 2}
+    window.waiting = [
+        e3d.events.MouseButton("left", True, **middle),
+        e3d.events.MouseMotion(20, 9, x=middle["x"] + 20, y=middle["y"] + 9),
+        e3d.events.MouseButton("left", False, x=middle["x"] + 20, y=middle["y"] + 9),
+    ]
+    update()
+    turned = pl.camera.position
+    assert not np.allclose(turned, before)
+    window.waiting = [e3d.events.Wheel(1.0, **middle)]
+    update()
+    assert np.linalg.norm(pl.camera.position) < np.linalg.norm(turned)
+    window.waiting = [e3d.events.Resized(60, 50)]
+    assert update().shape == (50, 60, 3)
+    pl.close()
+    assert window.closed
+
+
+def test_a_window_that_the_user_closed_stays_closed(installed, monkeypatch):
+    from engine3d.compat.pyvista import _live_window
+
+    monkeypatch.setattr(_live_window, "Window", FakeWindow)
+    pl = plotter(off_screen=False)
+    pl.show(interactive_update=True)
+    window = pl.render_window.live._window
+    window.waiting = [e3d.events.CloseRequested()]
+    for _ in range(2):
+        pv.Plotter.last_update_time = 0.0
+        pl.update()
+    assert window.closed and len(window.pictures) == 1
+    pl.close()
 
 
 def test_uninstall_puts_back_what_was_there():

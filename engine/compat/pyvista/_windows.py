@@ -20,7 +20,15 @@ _Base: Any = getattr(vtkRenderingOpenGL2, _CLASS, vtkRenderWindow)
 
 
 class Window(_Base):  # type: ignore[misc]
-    """A window whose pictures engine3d draws when PyVista reads them."""
+    """A window whose pictures engine3d draws when PyVista reads them.
+
+    Attributes
+    ----------
+    live : LiveWindow or None
+        What shows them while the program goes on.
+    """
+
+    live: Any = None
 
     def Render(self) -> None:
         """Do nothing: pictures are drawn when they are read."""
@@ -33,7 +41,10 @@ class Window(_Base):  # type: ignore[misc]
         return True
 
     def Finalize(self) -> None:
-        """Do nothing: there is no context."""
+        """Close what shows the pictures; there is no context."""
+        if self.live is not None:
+            self.live.close()
+            self.live = None
 
     def GetNeverRendered(self) -> bool:
         return False

@@ -6,6 +6,9 @@ draws: ``show``, ``screenshot``, ``image``, ``get_image_depth``, films, notebook
 
 from __future__ import annotations
 
+import functools
+import inspect
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,6 +18,7 @@ from pyvista.plotting import plotter, render_window_interactor, renderer
 
 from ...errors import DisplayError, warn
 from . import _windows
+from ._live_window import LiveWindow
 from ._window_pictures import is_smooth, picture_of
 from ._windows import Window
 
@@ -38,8 +42,9 @@ def install() -> None:
     _replace(renderer, "check_depth_peeling", lambda *limits: True)  # asks OpenGL
     _replace(plotter, "image_from_window", _image_of(plotter.image_from_window))
     _replace(plotter, "run_image_filter", _depth_of(plotter.run_image_filter))
-    for name in ("start", "initialize", "process_events"):
-        _replace(interactor, name, _unless_ours(getattr(interactor, name), name == "start"))
+    _replace(plotter.Plotter, "show", _going_on(plotter.Plotter.show))
+    for name, instead in _INSTEAD.items():
+        _replace(interactor, name, _unless_ours(getattr(interactor, name), instead))
 
 
 def uninstall() -> None:
@@ -92,22 +97,67 @@ def _codes(window: Window, depth: Any) -> NDArray[np.float64]:
     return np.where(depth > 0.0, codes, 1.0)
 
 
-def _unless_ours(original: Any, shows: bool) -> Any:
-    """Return a method of an interactor that leaves windows of ours alone, or shows them."""
+def _going_on(original: Any) -> Any:
+    """Return what takes the place of `pyvista.Plotter.show`, which may let the program go on."""
+    signature = inspect.signature(original)
+
+    @functools.wraps(original)
+    def show(self: Any, *args: Any, **keywords: Any) -> Any:
+        result = original(self, *args, **keywords)
+        given = signature.bind(self, *args, **keywords).arguments
+        if given.get("interactive_update") and given.get("interactive") is not False:
+            _begin_live(self)
+        return result
+
+    return show
+
+
+def _begin_live(shown: Any) -> None:
+    """Open a window that `pyvista.Plotter.update` draws anew."""
+    window = shown.render_window
+    if not isinstance(window, Window) or shown.off_screen or shown.notebook or window.live:
+        return
+    try:
+        window.live = LiveWindow(shown)
+    except DisplayError as error:
+        _tell_not_shown(error)
+    else:
+        window.live.update()
+
+
+def _unless_ours(original: Any, instead: Callable[[Any], None]) -> Any:
+    """Return a method of an interactor that does something else for windows of ours."""
 
     def method(self: Any) -> Any:
         if not isinstance(self.interactor.GetRenderWindow(), Window):
             return original(self)
-        if shows:
-            _show(self._plotter)
-        return None
+        return instead(self)
 
     return method
 
 
-def _show(shown: Any) -> None:
+def _show(interactor: Any) -> None:
     """Show a plotter in a window of engine3d; without a display, only say so."""
     try:
-        shown.engine3d.show()
+        interactor._plotter.engine3d.show()
     except DisplayError as error:
-        warn(f"the plotter is drawn, but not shown: {error}")
+        _tell_not_shown(error)
+
+
+def _tell_not_shown(error: DisplayError) -> None:
+    warn(f"the plotter is drawn, but not shown: {error}")
+
+
+def _update(interactor: Any) -> None:
+    """Draw a window anew that is open while the program goes on."""
+    live = interactor.interactor.GetRenderWindow().live
+    if live is not None:
+        live.update()
+
+
+def _do_nothing(interactor: Any) -> None:
+    """Begin nothing: a window of ours needs no preparation."""
+
+
+#: What is done instead of VTK's interactor's methods.
+_INSTEAD = {"start": _show, "initialize": _do_nothing, "process_events": _update}

@@ -1,133 +1,135 @@
-"""What trimesh reads has a process of its own, with so much memory and time and no more."""
+"""A risky reader has a process of its own, with so much memory and time and no more."""
 
 import importlib
-import json
+import os
+import signal
 import subprocess
 import sys
-import zipfile
+from types import MappingProxyType
 
-import numpy as np
 import pytest
-from PIL import Image
 
-import engine3d as e3d
-from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError
-from engine3d.io.loaders import load_document, load_mesh
+from engine3d.errors import FileFormatError
 from engine3d.io.reading import limited_process
-from engine3d.io.reading.linked_files import found_files
-from engine3d.io.reading.sources import Source
-
-pytest.importorskip("trimesh")
+from engine3d.io.reading.limited_process import in_limited_process
+from engine3d.io.reading.open_files import OpenFile
+from engine3d.io.reading.sources import Source, read_source
 
 MEGABYTE = 1 << 20
-CIRCLE = (
-    "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0\n20\n0\n30\n0\n40\n{}\n0\nENDSEC\n0\nEOF\n"
-)
-MEASURE = """
-import json, resource, sys, warnings
-import engine3d as e3d
-warnings.simplefilter("ignore")
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-try:
-    told = str(len(e3d.load_mesh(sys.argv[1]).positions))
-except e3d.Engine3DError as error:
-    told = str(error)
-own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
-print(json.dumps([told, own, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss]))
-"""
-
-
-def measured(path):
-    """What loading gives, and the peaks of memory of the process and of its children, in bytes."""
-    command = [sys.executable, "-c", MEASURE, str(path)]
-    found = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120)
-    told, own, child = json.loads(found.stdout)
-    return told, own * 1024, child * 1024
-
-
-def archive(path, files):
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
-        for name, text in files.items():
-            file.writestr(name, text)
-    return path
-
-
-@pytest.mark.parametrize("radius", [1, 1e9])
-def test_a_circle_has_as_many_points_at_any_size(write, radius):
-    told, own, child = measured(write("a.dxf", CIRCLE.format(radius)))
-    assert 10 < int(told) < 1000
-    assert own < 64 * MEGABYTE and child < 400 * MEGABYTE
-
-
-def test_a_small_archive_that_unpacks_to_much(tmp_path):
-    path = archive(tmp_path / "a.3mf", {"3D/3dmodel.model": b"<a/>" * (8 * MEGABYTE)})
-    assert path.stat().st_size < MEGABYTE // 4
-    told, own, _ = measured(path)
-    assert "a.3mf: unpacks to more than" in told
-    assert own < 64 * MEGABYTE
-
-
-GREEDY = """
-def read(source, split):
+READERS = """
+def greedy(source, split):
     if split:
         while True:
             pass
     return [bytearray(1 << 20) for _ in range(1 << 20)]
+
+
+def told(source, split):
+    return source, split
+
+
+def limits(source, split):
+    import resource
+
+    kinds = (resource.RLIMIT_AS, resource.RLIMIT_CPU, resource.RLIMIT_CORE)
+    return [resource.getrlimit(kind)[0] for kind in kinds]
 """
 
 
-def read_greedily(write, monkeypatch, split):
-    """Read with what takes all memory, or with ``split`` all time."""
-    monkeypatch.syspath_prepend(write("greedy.py", GREEDY).parent)
-    read = importlib.import_module("greedy").read
-    try:
-        limited_process.in_limited_process(read, Source("a.xyz", b"0 0 0"), split, size=5)
-    finally:
-        del sys.modules["greedy"]
+@pytest.fixture
+def reader(write, monkeypatch):
+    """``reader(name)``: a function of a module, which the other process finds by `sys.path`."""
+    monkeypatch.syspath_prepend(write("readers_of_test.py", READERS).parent)
+    yield lambda name: getattr(importlib.import_module("readers_of_test"), name)
+    sys.modules.pop("readers_of_test", None)
 
 
-def test_memory_is_limited(write, monkeypatch):
+def read(reader, split=False, **options):
+    return in_limited_process(reader, Source("a.xyz", b"0 0 0", **options), split, size=5)
+
+
+def test_what_a_process_reads_comes_back(reader):
+    source, split = read(reader("told"), split=True)
+    assert (source.path, source.data, split) == ("a.xyz", b"0 0 0", True)
+
+
+def test_options_of_the_caller_reach_the_process(reader):
+    options = {"crease_angle": 0.25, "values": False, "root": "models", "shapes": "collision"}
+    joints = MappingProxyType({"elbow": 0.5})
+    told = []
+    source, _ = read(
+        reader("told"), **options, joints=joints, progress=told.append, companion=told.append
+    )
+    assert {name: getattr(source, name) for name in options} == options
+    assert source.joints == joints
+
+
+def test_a_large_file_reaches_the_process(write, reader):
+    content = bytes(range(256)) * (5 * MEGABYTE // 256)
+    with read_source(write("a.xyz", content)) as source:
+        assert isinstance(source.content, OpenFile)
+        found, _ = in_limited_process(reader("told"), source, False, size=source.size)
+    assert found.data == content
+
+
+@pytest.mark.parametrize("status", [0, 7, -9])
+def test_a_process_is_late_where_a_signal_says_so(monkeypatch, status):
+    """Windows has no such signal: a process that ended well ended with status 0."""
+    monkeypatch.delattr(signal, "SIGXCPU", raising=False)
+    assert not limited_process._is_late(status)
+    monkeypatch.setattr(signal, "SIGXCPU", 24, raising=False)
+    assert limited_process._is_late(-24) and limited_process._is_late(None)
+    assert not limited_process._is_late(status)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="it limits no processes")
+def test_limits_do_not_depend_on_each_other(reader, monkeypatch):
+    """As where nothing tells the address space, or the system refuses to limit it."""
+    size, seconds, cores = read(reader("limits"))
+    assert (size > 0) == sys.platform.startswith("linux")
+    assert (seconds, cores) == (limited_process.MAX_SECONDS_BASE, 0)
+    refusing = """
+import builtins, resource
+from engine3d.io.reading import limited_process
+set_limit = resource.setrlimit
+def refused(what, limits):
+    if what == resource.RLIMIT_AS:
+        raise ValueError("current limit exceeds maximum limit")
+    set_limit(what, limits)
+resource.setrlimit = refused
+limited_process.main()
+"""
+    unknown = """
+from engine3d.io.reading import limited_process
+limited_process._address_space = lambda page: None
+limited_process.main()
+"""
+    for program in (refusing, unknown):
+        monkeypatch.setattr(limited_process, "_RUN", f"exec({program!r})")
+        assert read(reader("limits")) == [-1, seconds, cores]
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux alone limits memory")
+def test_memory_is_limited(reader):
     limit = limited_process.MAX_MEMORY_BASE + limited_process.MAX_MEMORY_RATIO * 5
     with pytest.raises(FileFormatError, match=rf"a\.xyz: needs more than {limit} bytes of memory"):
-        read_greedily(write, monkeypatch, split=False)
+        read(reader("greedy"))
     assert limit < 520 * MEGABYTE
 
 
 @pytest.mark.parametrize("by_clock", [False, True])
-def test_time_is_limited(write, monkeypatch, by_clock):
+def test_time_is_limited(reader, monkeypatch, by_clock):
     monkeypatch.setattr(limited_process, "MAX_SECONDS_BASE", 1000 if by_clock else 1)
     if by_clock:  # as where the system knows no limits
         monkeypatch.setattr(limited_process, "_PATIENCE", 1e-3)
     with pytest.raises(FileFormatError, match=r"a\.xyz: takes longer than 1(000)? seconds"):
-        read_greedily(write, monkeypatch, split=True)
+        read(reader("greedy"), split=True)
 
 
-def test_a_process_that_ends_is_an_error(write, monkeypatch):
+def test_a_process_that_ends_is_an_error(reader, monkeypatch):
     monkeypatch.setattr(limited_process, "_RUN", "sys.exit(7)")
     with pytest.raises(FileFormatError, match=r"a\.xyz: damaged: .* ended \(status 7\)"):
-        load_mesh(write("a.xyz", "0 0 0\n"))
-
-
-def test_nothing_of_the_current_folder_is_imported(write, tmp_path, monkeypatch):
-    path = write("a.xyz", "0 0 0\n1 1 1\n")
-    for name in ("pickle", "trimesh", "engine3d"):
-        write(f"{name}.py", "raise SystemExit(9)")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "path", [entry for entry in sys.path if entry])
-    assert len(load_mesh(path).points) == 2
-
-
-def test_the_document_is_what_it_would_be_here(write):
-    document = load_document(write("a.xyz", "0 0 0\n1 2 3\n"))
-    (entry,) = document.objects
-    assert document.format == "xyz"
-    assert entry.mesh.points.tolist() == [0, 1]
-    assert np.array_equal(entry.pose, np.eye(4))
-    entry.mesh.positions = entry.mesh.positions * 2  # still a mesh in every way
-    assert entry.mesh.bounds[1].tolist() == [2, 4, 6]
-    scene = e3d.Scene()
-    scene.add(entry.mesh)
-    assert scene.bounds[1].tolist() == [2, 4, 6]
+        read(reader("told"))
 
 
 def test_pillow_forgets_what_may_start_programs(write):
@@ -145,60 +147,3 @@ def test_pillow_forgets_what_may_start_programs(write):
     command = [sys.executable, "-c", code, str(path)]
     found = subprocess.run(command, check=True, capture_output=True, text=True)
     assert found.stdout.strip() == "True"
-
-
-DAE = """<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>
-<created>2020-01-01T00:00:00Z</created><modified>2020-01-01T00:00:00Z</modified></asset>
-<library_images><image id="i"><init_from>{image}</init_from></image></library_images>
-<library_effects><effect id="e"><profile_COMMON>
-<newparam sid="u"><surface type="2D"><init_from>i</init_from></surface></newparam>
-<newparam sid="s"><sampler2D><source>u</source></sampler2D></newparam>
-<technique sid="c"><lambert><diffuse><texture texture="s" texcoord="UV"/></diffuse></lambert>
-</technique></profile_COMMON></effect></library_effects>
-<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
-<library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
-<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<source id="t"><float_array id="ta" count="6">0 0 1 0 0 1</float_array><technique_common>
-<accessor source="#ta" count="3" stride="2"><param name="S" type="float"/>
-<param name="T" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles material="k" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
-<input semantic="TEXCOORD" source="#t" offset="1" set="0"/><p>0 0 1 1 2 2</p></triangles>
-</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="x"><node id="n"><instance_geometry url="#g">
-<bind_material><technique_common><instance_material symbol="k" target="#m"/></technique_common>
-</bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#x"/></scene></COLLADA>"""
-
-
-def test_images_of_collada(write):
-    Image.fromarray(np.full((2, 2, 3), 77, np.uint8)).save(write("a.tga", b""))
-    found = []
-    with found_files(found.append):
-        mesh = load_mesh(write("a.dae", DAE.format(image="a.tga")))
-    assert mesh.materials[0].texture.pixels[0, 0].tolist() == [77, 77, 77, 255]
-    assert [path.rpartition("/")[2] for path in found] == ["a.tga"]
-
-
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 10 10\n%%EndComments\n", "unknown image"),
-        (b"\x89PNG\r\n\x1a\n", "not an image of a known format"),
-        (None, "not found"),
-    ],
-)
-def test_unreadable_images_of_collada(write, content, message):
-    if content is not None:
-        write("b.eps", content)
-    with pytest.warns(Engine3DWarning, match=rf"a\.dae:\d+: 'b\.eps': .*{message}"):
-        mesh = load_mesh(write("a.dae", DAE.format(image="b.eps")))
-    assert mesh.materials[0].texture is None
-
-
-def test_a_missing_file_stays_an_error_of_access(tmp_path):
-    with pytest.raises(FileAccessError):
-        load_mesh(tmp_path / "none.xyz")

@@ -1,8 +1,9 @@
 """Runs readers in a separate process with limited memory and time.
 
 In: a reading function, and a `Source`. Out: its result or exception. Libraries that may crash on a
-file crash only that process. If the system cannot limit processes, only time is limited. Pillow is
-restricted to the formats of `images`, whatever library calls it.
+file crash only that process. Memory is limited on Linux alone, and where the system cannot limit
+processes, time by the clock. Pillow is restricted to the formats of `images`, whatever library
+calls it.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import os
 import pickle
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -60,9 +62,9 @@ def in_limited_process(
         raise FileFormatError("needs a Python interpreter of its own, there is none", source.path)
     seconds = MAX_SECONDS_BASE + MAX_SECONDS_PER_MEGABYTE * (size >> 20)
     memory = MAX_MEMORY_BASE + MAX_MEMORY_RATIO * size
-    request = (read, source.path, source.data, split, memory, seconds)
+    request = (read, _sent(source), split, memory, seconds)
     answer, status = _answer(pickle.dumps(sys.path) + pickle.dumps(request), seconds * _PATIENCE)
-    if status is None or status == -_signal("SIGXCPU"):
+    if _is_late(status):
         raise FileFormatError(
             f"takes longer than {seconds} seconds, the limit for its size", source.path
         )
@@ -80,6 +82,20 @@ def in_limited_process(
     if isinstance(result, BaseException):
         raise result
     return result
+
+
+def _sent(source: Source) -> Source:
+    """Return a source that can be pickled: whole, and without what only the caller can answer."""
+    defaults = Source._field_defaults
+    answered = {name: defaults[name] for name in ("progress", "companion")}
+    return source._replace(content=source.data, joints=dict(source.joints), **answered)
+
+
+def _is_late(status: int | None) -> bool:
+    """Return whether a process ended because of its time; Windows has no signal for that."""
+    if status is None:
+        return True
+    return hasattr(signal, "SIGXCPU") and status == -signal.SIGXCPU
 
 
 def _answer(request: bytes, seconds: float) -> tuple[bytes, int | None]:
@@ -106,13 +122,13 @@ def main() -> None:
     """Answer the request on standard input; the process runs this."""
     answer = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # libraries may print
-    read, path, data, split, memory, seconds = pickle.load(sys.stdin.buffer)
+    read, source, split, memory, seconds = pickle.load(sys.stdin.buffer)
     paths: list[str] = []
     try:
         _limit(memory, seconds)
         _limit_pillow()
         with found_files(paths.append), images_of_one_model():
-            result = read(Source(path, data), split)
+            result = read(source, split)
         written = pickle.dumps((paths, result), protocol=5)
     except MemoryError:
         written = pickle.dumps((paths, MemoryError()))
@@ -123,24 +139,36 @@ def main() -> None:
 
 
 def _limit(memory: int, seconds: int) -> None:
-    """Limit this process to ``memory`` more bytes than it has now."""
+    """Limit this process to ``memory`` more bytes than it has now, as far as the system can."""
     try:
         import resource
     except ImportError:
         return
-    with contextlib.suppress(OSError, ValueError):
-        with open("/proc/self/statm") as file:
-            memory += int(file.read().split()[0]) * resource.getpagesize()
-        _lower(resource, resource.RLIMIT_AS, memory)
+    own = _address_space(resource.getpagesize())
+    if own is not None:
+        _lower(resource, resource.RLIMIT_AS, own + memory)
     _lower(resource, resource.RLIMIT_CPU, seconds)
     _lower(resource, resource.RLIMIT_CORE, 0)
 
 
+def _address_space(page: int) -> int | None:
+    """Return the bytes of address space that this process has; None except on Linux.
+
+    macOS reserves hundreds of gigabytes of it, and refuses limits below that.
+    """
+    try:
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[0]) * page
+    except (OSError, ValueError):
+        return None
+
+
 def _lower(resource: ModuleType, what: int, limit: int) -> None:
-    """Set a limit, unless a lower one is set."""
+    """Set a limit, unless a lower one is set or the system refuses it."""
     _, most = resource.getrlimit(what)
     if most == resource.RLIM_INFINITY or limit < most:
-        resource.setrlimit(what, (limit, most))
+        with contextlib.suppress(OSError, ValueError):
+            resource.setrlimit(what, (limit, most))
 
 
 def _limit_pillow() -> None:
@@ -153,9 +181,3 @@ def _limit_pillow() -> None:
     Image.ID[:] = PILLOW_FORMATS
     for name in set(Image.OPEN) - set(PILLOW_FORMATS):
         del Image.OPEN[name]
-
-
-def _signal(name: str) -> int:
-    import signal
-
-    return getattr(signal, name, 0)

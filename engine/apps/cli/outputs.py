@@ -11,6 +11,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 
+from ...base.files.folders_above import folders_above
 from ...errors import FileAccessError
 from . import quietness
 from .usage import UsageError
@@ -76,11 +77,12 @@ def check_folder(output: str) -> None:
 
     `make_folder_of` creates it when something is written, so that failures leave no empty folder.
     """
-    folder = wanted = os.path.dirname(os.path.abspath(output))
-    while not os.path.lexists(folder):
-        folder = os.path.dirname(folder)
+    wanted = os.path.dirname(os.path.abspath(output))
+    folder = next(filter(os.path.lexists, folders_above(wanted)), None)
     number = 0
-    if not os.path.isdir(folder):
+    if folder is None:  # not even the drive is there
+        number = errno.ENOENT
+    elif not os.path.isdir(folder):
         number = errno.ENOENT if os.path.islink(folder) else errno.ENOTDIR
     elif folder != wanted and not os.access(folder, os.W_OK | os.X_OK):
         number = errno.EACCES

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 
 from ...errors import FileAccessError
 from ..system import sync_folder
 from .atomic_write import path_below
+from .folders_above import folders_above
 
 
 def make_folder_of(path: str | os.PathLike[str], *, below: str | None = None) -> None:
@@ -32,8 +34,5 @@ def make_folder_of(path: str | os.PathLike[str], *, below: str | None = None) ->
 
 def _lacking(folder: str) -> list[str]:
     """Return a folder and its ancestors, as far as they do not exist yet."""
-    lacking = []
-    while folder and not os.path.isdir(folder):
-        lacking.append(folder)
-        folder = os.path.dirname(folder)
-    return lacking
+    lacks = itertools.takewhile(lambda above: not os.path.isdir(above), folders_above(folder))
+    return [above for above in lacks if above]  # the empty path is the current folder

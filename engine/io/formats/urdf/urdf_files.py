@@ -8,10 +8,12 @@ caller's root; nothing else is read, whatever a name says.
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 from collections.abc import Iterator
 
+from ....base.files.folders_above import folders_above
 from ...addresses.linked_urls import linked_files
 from ...addresses.url_names import is_url
 from ...reading.linked_files import LinkedFileError, LinkedFiles
@@ -127,9 +129,5 @@ def _around(folder: str, name: str) -> Iterator[str]:
 
 def _above(folder: str) -> list[str]:
     """Return a folder and those around it, as absolute paths; without the top one."""
-    here = os.path.abspath(folder)
-    found: list[str] = []
-    while os.path.dirname(here) != here and len(found) < _MOST_ABOVE:
-        found.append(here)
-        here = os.path.dirname(here)
-    return found
+    nearest = itertools.islice(folders_above(os.path.abspath(folder)), _MOST_ABOVE)
+    return [above for above in nearest if os.path.dirname(above) != above]

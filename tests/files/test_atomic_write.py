@@ -190,7 +190,7 @@ def test_every_file_is_written_by_this_module_and_below_its_folder():
                 direct.add(name)
     assert followed - {"base/files/atomic_write.py"} == NAMED_BY_OTHERS
     # The first opens what leads nowhere, the other a file in a folder of its own for a moment.
-    assert direct == {"apps/cli/__init__.py", "io/cad/shape_files.py"}
+    assert direct == {"apps/cli/__init__.py", "base/files/temporary_copy.py"}
 
 
 def test_an_address_is_no_place_to_write_to(tmp_path, monkeypatch):

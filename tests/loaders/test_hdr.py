@@ -1,14 +1,20 @@
 """Radiance and OpenEXR pictures: whole ones, all orders of pixels, damaged ones."""
 
+import contextlib
+import os
 import re
+import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from loaders.seeds import HDR, OLD_HDR
+from missing_here import open_files
 from shared_corpus import SHARED
 
 import engine3d as e3d
 
+EXR = b"\x76\x2f\x31\x01" + bytes(60)
 FOLDER = SHARED / "gltf" / "env"
 needs_environments = pytest.mark.skipif(not FOLDER.is_dir(), reason="there is no shared/gltf/env")
 
@@ -168,6 +174,32 @@ def test_openexr():
 
 @needs_environments
 def test_openexr_without_the_package(monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "OpenEXR", None)
+    monkeypatch.setitem(sys.modules, "OpenEXR", None)
     with pytest.raises(e3d.FileAccessError, match=r"pip install 'engine3d\[exr\]'"):
         e3d.Environment.load(FOLDER / "hdr.exr")
+
+
+def handles_of(file):
+    """The handles that this process has of a file, where the system tells them."""
+    here = os.fstat(file.fileno())
+    for handle in map(int, open_files()):
+        with contextlib.suppress(OSError):
+            if os.path.samestat(os.fstat(handle), here):
+                yield handle
+
+
+def test_openexr_reads_a_file_that_is_closed(monkeypatch):
+    """Windows lets no library open a file that is open for writing."""
+    paths = []
+
+    def read(path, **_):
+        with open(path, "rb") as file:
+            assert file.read() == EXR
+            paths.append(path)
+            assert set(handles_of(file)) <= {file.fileno()}
+        raise ValueError(f"{path} is no picture")
+
+    monkeypatch.setitem(sys.modules, "OpenEXR", SimpleNamespace(File=read))
+    with pytest.raises(e3d.FileFormatError, match="damaged OpenEXR picture: it is no picture"):
+        e3d.Environment.load(EXR)
+    assert len(paths) == 1 and not os.path.exists(os.path.dirname(paths[0]))

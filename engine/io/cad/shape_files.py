@@ -7,8 +7,6 @@ before those of parts, and those of faces before both.
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Iterator
 from typing import Any
 
@@ -16,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
+from ...base.files.temporary_copy import temporary_copy
 from ...errors import FileFormatError
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
@@ -35,10 +34,7 @@ def read_parts(source: Source, split: bool, kind: str) -> list[PosedPart]:
     ------
     FileFormatError
     """
-    with tempfile.TemporaryDirectory(prefix="engine3d-") as folder:
-        path = os.path.join(folder, f"model.{kind}")
-        with open(path, "wb") as file:
-            file.write(source.data)
+    with temporary_copy(source.data, f"model.{kind}") as path:
         parts = _brep_parts(path) if kind == "brep" else _document_parts(path, kind)
     if not parts:
         raise FileFormatError(f"damaged, or no {kind} file: it holds no shape", source.path)

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import contextlib
 import os
-import tempfile
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.files.temporary_copy import temporary_copy
 from ...base.optional_packages import needed
 from ...errors import FileAccessError, FileFormatError
 from ..reading.sources import Source
@@ -41,19 +41,17 @@ def read_exr(source: Source) -> NDArray[np.float32]:
         import OpenEXR
     except ImportError:
         raise FileAccessError(needed("OpenEXR files need", "OpenEXR", "exr"), source.path) from None
-    with tempfile.NamedTemporaryFile(suffix=".exr") as file:
-        file.write(source.data)
-        file.flush()
+    with temporary_copy(source.data, "picture.exr") as path:
         try:
             with _silence():
-                header = OpenEXR.File(file.name, header_only=True).header()
+                header = OpenEXR.File(path, header_only=True).header()
                 check_image_size(*_size(header), source.path, source.size)
-                channels = OpenEXR.File(file.name, separate_channels=True).channels()
+                channels = OpenEXR.File(path, separate_channels=True).channels()
                 planes = {name: channel.pixels for name, channel in channels.items()}
         except (FileFormatError, MemoryError):
             raise
         except Exception as error:  # the library raises various errors for damaged files
-            lines = str(error).replace(file.name, "it").strip().splitlines()
+            lines = str(error).replace(path, "it").strip().splitlines()
             reason = lines[0] if lines else "it cannot be decoded"
             raise FileFormatError(f"damaged OpenEXR picture: {reason}", source.path) from None
     return _joined(planes, source.path)

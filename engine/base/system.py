@@ -23,6 +23,8 @@ _OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
 _TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK, 0)
 # errors of file systems that cannot sync
 _NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)
+# errors of a pipe that nobody reads; Windows tells the second one
+_UNREAD = (errno.EPIPE, errno.EINVAL) if os.name == "nt" else (errno.EPIPE,)
 _SHORT = 0.5  # seconds
 _LONGEST_ANSWER = 5.0  # seconds
 # Seconds to try again where Windows refuses to replace a file: another program, such as a scanner
@@ -105,6 +107,12 @@ def after_fork(function: Callable[[], object]) -> None:
     """Call a function in every process forked from this one."""
     if hasattr(os, "register_at_fork"):
         os.register_at_fork(after_in_child=function)
+
+
+def is_unread(error: OSError) -> bool:
+    """Return whether an error of writing means that nobody reads the other end of the pipe."""
+    # Errors of files name them, such as one of a path that is invalid.
+    return error.errno in _UNREAD and error.filename is None
 
 
 def locked(handle: int) -> bool:

@@ -19,6 +19,7 @@ import struct
 from typing import Any, BinaryIO
 
 from ...base.side_by_side import Thread
+from ...base.system import is_unread
 
 LENGTH = struct.Struct("<Q")
 BEGUN = "begun"
@@ -64,15 +65,24 @@ def main(idle: float | None = None) -> None:
     try:
         # The parent may be gone already: the listener then stops this thread at once.
         Thread(target=_listen, args=(asked, calls), daemon=True).start()
-        patience = None  # the first call is on its way
+        _serve(calls, results, idle)
+    except (KeyboardInterrupt, queue.Empty):
+        pass
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _serve(calls: queue.SimpleQueue, results: BinaryIO, idle: float | None) -> None:
+    """Answer calls until no more come, or nobody reads the answers."""
+    patience = None  # the first call is on its way
+    try:
         while (call := calls.get(timeout=patience)) is not None:
             patience = idle
             send(results, BEGUN)
             send(results, _answer(*call))
-    except (KeyboardInterrupt, BrokenPipeError, queue.Empty):
-        pass
-    finally:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    except OSError as error:
+        if not is_unread(error):
+            raise
 
 
 def _listen(stream: BinaryIO, calls: queue.SimpleQueue) -> None:

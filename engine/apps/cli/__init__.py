@@ -66,6 +66,7 @@ def _escape_missing_letters() -> None:
 
 def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
     """Run a command, and print every foreseen exception as one line."""
+    from ...base.system import is_unread
     from ...errors import Engine3DError
     from .plugin_switch import plugins_as_asked
 
@@ -74,15 +75,15 @@ def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
             status = _obey(arguments, begin)
             sys.stdout.flush()
         return status
-    except BrokenPipeError:
-        # The reader of our output has closed it.
-        _leave_standard_output()
-        return 1
     except KeyboardInterrupt:
         return INTERRUPTED
     except _Ended as ended:
         return ENDED_BY_SIGNAL + ended.number
     except (Engine3DError, OSError) as error:
+        if isinstance(error, OSError) and is_unread(error):
+            # The reader of our output has closed it.
+            _leave_standard_output()
+            return 1
         if not _can_flush():
             _leave_standard_output()
         return _fail(_one_line(error))

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 
 from ...base.files.folders_above import folders_above
+from ...base.system import is_unread
 from ...errors import FileAccessError
 from . import quietness
 from .usage import UsageError
@@ -125,9 +126,9 @@ def write_standard_output(data: bytes) -> None:
         while rest:
             rest = rest[sys.stdout.buffer.write(rest) :]
         sys.stdout.buffer.flush()
-    except BrokenPipeError:
-        raise
     except OSError as error:
+        if is_unread(error):
+            raise
         raise FileAccessError(f"cannot write: {error.strerror}", "standard output") from error
 
 

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...base.files.atomic_write import atomic_write
 from ...base.optional_packages import needed
+from ...base.system import is_unread
 from ...errors import FileAccessError, printable, warn
 from ...rendering.transparency import refuse_transparency
 
@@ -107,7 +108,9 @@ def _feed(command: list[str], pictures: Iterable[np.ndarray], path: Any) -> None
                 process.stdin.write(_rgb(pixels))
             process.stdin.close()
             status = process.wait()
-        except BrokenPipeError:
+        except OSError as error:
+            if not is_unread(error):
+                raise
             status = process.wait(WAITS)
         finally:
             if process.poll() is None:

@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from engine3d.base import system
+from engine3d.base.files.atomic_write import atomic_write
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="locks by flock")
@@ -54,6 +55,33 @@ def test_programs_of_the_system_answer_or_do_not():
 def test_ending_signals_and_processors():
     assert "SIGTERM" in {number.name for number in system.ending_signals()}
     assert 1 <= system.usable_processors() <= os.cpu_count()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="syncs by fcntl")
+@pytest.mark.parametrize("has_call, is_refused", [(True, False), (True, True), (False, False)])
+def test_files_and_folders_are_synced_through_the_disks_cache(
+    tmp_path, monkeypatch, has_call, is_refused
+):
+    import fcntl
+
+    asked, synced = [], []
+
+    def call(handle, number):
+        asked.append((os.fstat(handle).st_ino, number))
+        if is_refused:
+            raise OSError(errno.ENOTSUP, "not by this disk")
+
+    monkeypatch.setattr(fcntl, "fcntl", call)
+    monkeypatch.setattr(os, "fsync", lambda handle: synced.append(os.fstat(handle).st_ino))
+    if has_call:
+        monkeypatch.setattr(fcntl, "F_FULLFSYNC", 51, raising=False)
+    else:
+        monkeypatch.delattr(fcntl, "F_FULLFSYNC", raising=False)
+    with atomic_write(tmp_path / "a") as file:
+        file.write(b"x")
+    written = [(tmp_path / "a").stat().st_ino, tmp_path.stat().st_ino]
+    assert asked == ([(number, 51) for number in written] if has_call else [])
+    assert synced == (written if is_refused or not has_call else [])
 
 
 @pytest.mark.parametrize("moment, refusals, is_replaced", [(30.0, 2, True), (0.0, 1, False)])

@@ -24,7 +24,7 @@ from typing import Any, BinaryIO
 
 from ...errors import FileAccessError, InvalidArgumentError
 from ..numbers import shown
-from ..system import AT_ONCE, READ_WRITE, WRITE, replace_file, set_mode, sync_folder
+from ..system import AT_ONCE, READ_WRITE, WRITE, replace_file, set_mode, sync_file, sync_folder
 from .portable_names import fault_on_windows
 
 _ON_WINDOWS = os.name == "nt"
@@ -194,7 +194,7 @@ class _Part:
         if self._mode is not None:
             set_mode(self.file.fileno(), self._temporary or self._target, self._mode)
         if self._temporary is not None:
-            os.fsync(self.file.fileno())
+            sync_file(self.file.fileno())
         self.file.close()
 
     def appear(self) -> None:

@@ -44,12 +44,29 @@ int e3d_random_bytes(void *bytes, size_t count)
 #endif
 }
 
+#if defined(_WIN32)
+/* Processors form groups of at most 64. A process runs on those of one group that its mask names; from Windows 11 on, on
+ * several groups, unless it has been told otherwise. */
+static long processors_of_groups(void)
+{
+    USHORT groups[64], count = 64;
+    if (GetProcessGroupAffinity(GetCurrentProcess(), &count, groups) && count > 1) {
+        long sum = 0;
+        for (USHORT i = 0; i < count; i++)
+            sum += (long)GetActiveProcessorCount(groups[i]);
+        return sum;
+    }
+    DWORD_PTR own, whole;
+    if (GetProcessAffinityMask(GetCurrentProcess(), &own, &whole) && own)
+        return __builtin_popcountll(own);
+    return (long)GetActiveProcessorCount(ALL_PROCESSOR_GROUPS);
+}
+#endif
+
 int e3d_usable_processors(void)
 {
 #if defined(_WIN32)
-    SYSTEM_INFO system;
-    GetSystemInfo(&system);
-    long online = (long)system.dwNumberOfProcessors;
+    long online = processors_of_groups();
 #else
 #if defined(__linux__)
     cpu_set_t set;

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import sys
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -54,18 +55,39 @@ def decoded_name(name: bytes) -> str:
 
 
 def usable_processors() -> int:
-    """Return the processors that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    """Return the processors that this process may use: the threads that the core takes for 0.
+
+    Its affinity and a container's quota may leave it fewer than the machine has.
+    """
+    from .._native.rasterizer import thread_count
+
+    return thread_count()
 
 
 def machine_memory() -> int | None:
     """Return the machine's memory in bytes; None if the system does not tell."""
+    if sys.platform == "win32":
+        return _memory_of_windows()
     try:
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
         return None
+
+
+def _memory_of_windows() -> int | None:
+    import ctypes
+
+    class Status(ctypes.Structure):  # MEMORYSTATUSEX
+        _fields_ = (
+            ("size", ctypes.c_uint32),
+            ("percent_used", ctypes.c_uint32),
+            ("memory", ctypes.c_uint64),
+            ("others", ctypes.c_uint64 * 6),
+        )
+
+    status = Status(size=ctypes.sizeof(Status))
+    kernel = ctypes.WinDLL("kernel32")  # type: ignore[attr-defined]
+    return status.memory if kernel.GlobalMemoryStatusEx(ctypes.byref(status)) else None
 
 
 def answer_of(*command: str) -> str:
@@ -146,7 +168,7 @@ def sync_file(handle: int) -> None:
     try:
         import fcntl
 
-        fcntl.fcntl(handle, fcntl.F_FULLFSYNC)
+        fcntl.fcntl(handle, fcntl.F_FULLFSYNC)  # type: ignore[attr-defined]
     except (ImportError, AttributeError, OSError):  # no such call, or a disk without it
         os.fsync(handle)
 

@@ -1,13 +1,21 @@
 """What systems give in different ways."""
 
+import ctypes
 import errno
 import os
+import subprocess
 import sys
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+import engine3d
+from engine3d._native import rasterizer
 from engine3d.base import system
 from engine3d.base.files.atomic_write import atomic_write
+
+PACKAGE = Path(engine3d.__file__).parent
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="locks by flock")
@@ -55,6 +63,42 @@ def test_programs_of_the_system_answer_or_do_not():
 def test_ending_signals_and_processors():
     assert "SIGTERM" in {number.name for number in system.ending_signals()}
     assert 1 <= system.usable_processors() <= os.cpu_count()
+
+
+def test_usable_processors_are_what_the_core_takes(monkeypatch):
+    """A container's quota counts, and no module asks for those of the whole machine."""
+    monkeypatch.setattr(rasterizer, "thread_count", lambda: 3)
+    assert system.usable_processors() == 3
+    asking = [path for path in PACKAGE.rglob("*.py") if "cpu_count" in path.read_text("utf-8")]
+    assert [path.name for path in asking] == ["system_report.py"]  # which tells of the machine
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="sets the affinity")
+def test_usable_processors_are_those_of_the_affinity():
+    program = (
+        "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))});"
+        "from engine3d.base import system; print(system.usable_processors())"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
+    assert done.stdout.split() == [b"1"]
+
+
+def test_the_machine_tells_its_memory():
+    assert system.machine_memory() > 2**28
+
+
+@pytest.mark.parametrize("has_answer", [False, True])
+def test_windows_tells_its_memory_in_a_structure(monkeypatch, has_answer):
+    def ask(reference):
+        status = reference._obj
+        assert status.size == ctypes.sizeof(status) == 64
+        status.percent_used, status.memory = 71, 2**35 + 5
+        return int(has_answer)
+
+    kernel = SimpleNamespace(GlobalMemoryStatusEx=ask)
+    monkeypatch.setattr(ctypes, "WinDLL", {"kernel32": kernel}.get, raising=False)
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert system.machine_memory() == (2**35 + 5 if has_answer else None)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="syncs by fcntl")

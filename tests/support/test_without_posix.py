@@ -54,6 +54,8 @@ def locking(handle, mode, count):
     if locks.setdefault(here, handle) != handle:
         raise PermissionError(13, "locked")
 sys.modules["msvcrt"] = types.SimpleNamespace(LK_NBLCK=2, locking=locking)
+kernel = types.SimpleNamespace(GlobalMemoryStatusEx=lambda status: 0)
+ctypes.WinDLL = {"kernel32": kernel}.get
 
 sys.modules["open3d"] = None  # its package asks for what Windows has
 import engine3d

@@ -7,7 +7,6 @@ float64, and a `Watch` that looks at them and at their textures.
 from __future__ import annotations
 
 import math
-import os
 import weakref
 from collections.abc import Iterable
 from typing import Any, NamedTuple
@@ -16,6 +15,7 @@ from ..._native.rasterizer import ALPHA_MODES, PHYSICAL_NUMBERS, NativeDrawList,
 from ...base import linalg
 from ...base.dirty_tracking import Watch
 from ...base.side_by_side import side_by_side
+from ...base.system import usable_processors
 from ...choices import ColorSpace
 from ...errors import warn
 from ...model.materials.display_colors import shading_color
@@ -121,8 +121,7 @@ class MaterialList:
             for slot, placed in placed_textures_of(material).items()
             if is_new(placed.texture) and placed.texture.width * placed.texture.height >= _LARGE
         )
-        count = min(len(wanted), threads or os.cpu_count() or 1)
-        if count > 1:
+        if len(wanted) > 1 and (count := threads or usable_processors()) > 1:
             side_by_side(lambda one: native_texture(*one), list(wanted), count)
 
     def is_listed_otherwise(self, material: Material) -> bool:

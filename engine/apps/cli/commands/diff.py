@@ -7,6 +7,7 @@ import os
 from collections import Counter
 
 from ....base.files.making_folders import make_folder_of
+from ....base.system import usable_processors
 from ....errors import printable
 from ...golden import compared_folders
 from ...golden.html_report import Report
@@ -61,7 +62,7 @@ def _compare(args: argparse.Namespace) -> list[Result]:
     found = compared_folders.pairs(*args.pictures)
     for path in filter(None, (args.report, args.json, args.junit)):
         make_folder_of(path)  # before the work, since it may fail
-    threads = args.concurrency or os.cpu_count() or 1
+    threads = args.concurrency or usable_processors()
     are_folders = os.path.isdir(args.pictures[0])
     compared = compared_folders.compare_all(found, rules, threads, keep_going=are_folders)
     return list(with_progress(compared, len(found), "comparing"))

@@ -7,13 +7,13 @@ image gives a warning, and no texture. Images are decoded in parallel.
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...._native.loaders import frozen
 from ....base.side_by_side import side_by_side
+from ....base.system import usable_processors
 from ....errors import Engine3DError
 from ....model.materials.textures import (
     ImageFile,
@@ -210,7 +210,7 @@ def changed(texture: Texture, pixels: np.ndarray, name: str) -> Texture:
 
 
 def _threads(images: list[int]) -> int:
-    return max(min(len(images), os.cpu_count() or 1, _MOST_THREADS), 1)
+    return max(min(len(images), usable_processors(), _MOST_THREADS), 1)
 
 
 def _wrap(value: Any) -> Wrap:

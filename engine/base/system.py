@@ -105,7 +105,9 @@ def ending_signals() -> tuple[Any, ...]:
     """Return the signals by which the system asks a program to end."""
     import signal
 
-    names = ("SIGTERM", "SIGHUP", "SIGBREAK")  # the last one when a console of Windows closes
+    # The last one is that of Ctrl-Break. When a console closes Windows sends it too, but ends the
+    # process as soon as Python has noted it, before a handler runs.
+    names = ("SIGTERM", "SIGHUP", "SIGBREAK")
     return tuple(getattr(signal, name) for name in names if hasattr(signal, name))
 
 

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import signal
+import subprocess
 import sys
 import tempfile
 
@@ -11,6 +12,11 @@ import pytest
 # What ends a process at once, and how a pool tells that. Windows has no signals between processes.
 KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 KILLED = "was ended by SIGKILL" if hasattr(signal, "SIGKILL") else f"ended with status {KILL:d}"
+
+# How a program is started that another process may stop as Ctrl-C does, and with what status that
+# ends it: Windows has Ctrl-Break for that, which reaches a group.
+STOPPABLE = {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP} if os.name == "nt" else {}
+STOPPED = 128 + (signal.SIGBREAK if os.name == "nt" else signal.SIGINT)
 
 needs_full_device = pytest.mark.skipif(
     os.name == "nt" or not os.path.exists("/dev/full"), reason="there is no /dev/full"
@@ -61,6 +67,24 @@ def interrupt():
         signal.raise_signal(signal.SIGINT)
     else:
         os.kill(os.getpid(), signal.SIGINT)
+
+
+def stop(process):
+    """Stop a process that is `STOPPABLE`; without a console of Windows, skip the test."""
+    if os.name != "nt":
+        process.send_signal(signal.SIGINT)
+    elif _has_console():
+        process.send_signal(signal.CTRL_BREAK_EVENT)
+    else:
+        process.kill()
+        process.wait()
+        pytest.skip("Ctrl-Break needs a console")
+
+
+def _has_console():
+    import ctypes
+
+    return ctypes.WinDLL("kernel32").GetConsoleProcessList((ctypes.c_uint32 * 1)(), 1) > 0
 
 
 def open_files():

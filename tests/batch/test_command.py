@@ -1,11 +1,11 @@
 """``engine3d batch``: what it prints, how it ends, and what it leaves when it is stopped."""
 
-import signal
 import subprocess
 import sys
 import time
 
 import pytest
+from missing_here import STOPPABLE, STOPPED, stop
 from patience import HUNG
 
 from engine3d.apps.batch.processes import ProcessPool
@@ -91,31 +91,33 @@ def test_a_broken_manifest_is_one_line(manifest, place, capsys):
     assert said.count("\n") == 1 and not (place / "out").exists()
 
 
-def stop(path, place, number, count, *options):
-    """Start a batch, stop it when some pictures are there; return its status."""
+def ended(path, place, end, count):
+    """Start a batch, end it when some pictures are there; return its status."""
     command = [sys.executable, "-m", "engine3d", "batch", str(path), "-o", str(place / "out")]
-    started = subprocess.Popen([*command, "--jobs", "2", *options], stdout=-1, stderr=-1)
+    started = subprocess.Popen([*command, "--jobs", "2"], stdout=-1, stderr=-1, **STOPPABLE)
     deadline = time.monotonic() + HUNG
     while len(list((place / "out").glob("*.png"))) < count:
         assert time.monotonic() < deadline and started.poll() is None
         time.sleep(0.002)
-    started.send_signal(number)
+    end(started)
     started.communicate(timeout=HUNG)
     return started.returncode
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no signals between processes")
-def test_a_stopped_batch_goes_on_where_it_was(manifest, place):
+@pytest.mark.parametrize(
+    "end, status",
+    [(stop, STOPPED), (subprocess.Popen.kill, 1 if sys.platform == "win32" else -9)],
+    ids=["stopped", "killed"],
+)
+def test_a_batch_that_was_ended_goes_on_where_it_was(manifest, place, end, status):
     path = manifest({**SCRIPT, "size": [400, 300], "matrix": {"seed": {"count": 30}}})
     out, tasks = place / "out", read_manifest(path).tasks
-    assert stop(path, place, signal.SIGINT, 3) == 130
-    assert not list(out.rglob("*.part"))
+    assert ended(path, place, end, 3) == status
+    assert end is not stop or not list(out.rglob("*.part"))
     there = len(list(out.glob("*.png")))
     assert 3 <= there < 20
-    assert stop(path, place, signal.SIGKILL, there + 2, "--resume") == -signal.SIGKILL
-    assert len(list(out.glob("*.png"))) < 30
     # Processes of a batch that was killed end by themselves, at once.
     summary = run(tasks, out, jobs=1, resume=True)
-    assert summary.done_before >= there + 2 and summary.drawn + summary.done_before == 30
+    assert summary.done_before >= there and summary.drawn + summary.done_before == 30
     assert not list(out.rglob("*.part"))
     assert summary.hash == run(tasks, place / "serial", jobs=1).hash

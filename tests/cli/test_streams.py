@@ -4,7 +4,6 @@ import io
 import json
 import os
 import shlex
-import signal
 import subprocess
 import sys
 import time
@@ -12,7 +11,7 @@ import time
 import numpy as np
 import pytest
 from cli.conftest import SMALL, pixels, start
-from missing_here import needs_full_device
+from missing_here import STOPPABLE, STOPPED, needs_full_device, stop
 from patience import HUNG
 from PIL import Image
 
@@ -129,15 +128,14 @@ def test_a_reader_of_a_picture_that_leaves():
     assert error == b""
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no signals between processes")
 def test_ctrl_c_is_quiet_and_leaves_no_file(model, tmp_path):
     output = tmp_path / "long.gif"
-    process = start("render", model, "--turntable", "3000", "--verbose", "-o", output)
+    process = start("render", model, "--turntable", "3000", "--verbose", "-o", output, **STOPPABLE)
     assert b"loaded" in process.stderr.readline()
     time.sleep(0.5)
-    os.kill(process.pid, signal.SIGINT)
+    stop(process)
     out, err = process.communicate(timeout=HUNG)
-    assert process.returncode == 130
+    assert process.returncode == STOPPED
     assert out == b""
     assert all(b"] frame " in line for line in err.splitlines())
     assert [entry.name for entry in tmp_path.iterdir()] == [model.name]

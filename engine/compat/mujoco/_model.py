@@ -95,7 +95,8 @@ class Model:
         self.first_hfield = self.first_mesh + 2 * model.nmesh
         self.first_skin = self.first_hfield + model.nhfield
         self.first_flex = self.first_skin + model.nskin
-        shapes = self.first_flex + 2 * int(getattr(model, "nflex", 0))
+        self._flex_parts = _flex_parts(model)
+        shapes = self.first_flex + 2 * int(self._flex_parts[-1])
         plane_geoms = np.flatnonzero(model.geom_type == _PLANE)
         self.native = NativeModel(shapes, 1 + len(plane_geoms), model.ntex)
         skies = np.flatnonzero(model.tex_type == _SKYBOX)
@@ -264,6 +265,16 @@ class Model:
         uvs = np.array(model.skin_texcoord[first : first + model.skin_vertnum[number]], np.float32)
         return faces, np.ascontiguousarray(uvs[faces])
 
+    # ---- flexes ----
+
+    def flex_part(self, flex: int, material: int) -> int:
+        """Return the number of what has one material of a flex, among those of all; -1 if none."""
+        material = max(material, 0)  # -1: the flex has one alone
+        if not 0 <= flex < len(self._flex_parts) - 1:
+            return -1
+        part = int(self._flex_parts[flex]) + material
+        return part if part < self._flex_parts[flex + 1] else -1
+
     # ---- textures ----
 
     def upload_texture(self, number: int) -> None:
@@ -297,6 +308,15 @@ class Model:
         self.texids = np.zeros(0, np.int32) if ids is None else ids[:, min(1, ids.shape[1] - 1)]
         self.texuniforms = np.array(model.mat_texuniform, np.int32)
         self.texrepeats = np.array(model.mat_texrepeat, np.float32).reshape(-1, 2)
+
+
+def _flex_parts(model: Any) -> np.ndarray:
+    """Return where the parts of each flex begin, and how many there are: a part has one material.
+
+    What the faces' materials are may change from picture to picture, so that this is the most.
+    """
+    counts = [max(min(int(count), model.nmat + 1), 1) for count in model.flex_elemnum]
+    return np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
 
 
 def _face_normals(at: np.ndarray) -> np.ndarray:

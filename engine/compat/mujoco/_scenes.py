@@ -68,6 +68,8 @@ class SceneView:
         names = from_.dtype.names or ()
         out["castshadow"] = from_["castshadow"] if "castshadow" in names else 1
         out["rbound"][from_["objtype"] != _GEOM] = -1
+        for i in np.flatnonzero(out["type"] == _FLEX_TYPE):
+            out["objid"][i] = model.flex_part(int(out["objid"][i]), int(out["dataid"][i]))
         by_material = out["matid"] >= 0
         if "texid" in names:
             by_material &= out["texid"] < 0
@@ -138,33 +140,37 @@ class SceneView:
             normals = scene.skinnormal.reshape(-1, 3)[begin:end].astype(np.float32)[faces]
             edges = np.full(len(faces), 0b111, np.uint8)
             model.native.set_shape(model.first_skin + number, positions, faces, normals, uvs, edges)
-        for number in range(getattr(scene, "nflex", 0)):
-            self._set_flex(model, number)
-
-    def _set_flex(self, model: Model, number: int) -> None:
-        scene = self.scene
-        used = int(scene.flexfaceused[number])
         of_geom = self._geoms[: scene.ngeom]
-        mine = of_geom[(of_geom["type"] == _FLEX_TYPE) & (of_geom["objid"] == number)]
-        radius = float(mine["size"][0, 0]) if len(mine) else 0.0
-        hidden = bool(scene.flexskinopt) and used > 0
-        frame = _flex_frame(model, scene, number, 0.0 if hidden else radius)
-        model.native.set_shape(model.first_flex + 2 * number, *frame)
+        for geom in of_geom[of_geom["type"] == _FLEX_TYPE]:
+            self._set_flex(model, geom)
+
+    def _set_flex(self, model: Model, geom: np.void) -> None:
+        """Give the core what a geom shows of a flex: its frame, and its faces.
+
+        MuJoCo 4.0 has a geom for each material of a flex. Each says which faces are its own, and
+        the first has the frame.
+        """
+        scene, number = self.scene, int(geom["objid"])
+        part = model.flex_part(number, int(geom["dataid"]))
+        if part < 0:
+            return
+        shape = model.first_flex + 2 * part
+        used = int(scene.flexfaceused[number])
+        if geom["dataid"] <= 0:
+            hidden = bool(scene.flexskinopt) and used > 0
+            radius = 0.0 if hidden else float(geom["size"][0])
+            model.native.set_shape(shape, *_flex_frame(model, scene, number, radius))
         begin = int(scene.flexfaceadr[number])
         rows = slice(begin, begin + used)
+        if geom["dataid"] >= 0:
+            first, count = (max(int(share), 0) for share in geom["size"][1:])
+            rows = slice(begin + min(first, used), begin + min(first + count, used))
         positions = np.array(scene.flexface.reshape(-1, 3, 3)[rows], np.float32)
         normals = np.array(scene.flexnormal.reshape(-1, 3, 3)[rows], np.float32)
         uvs = np.array(scene.flextexcoord.reshape(-1, 3, 2)[rows], np.float32)
-        corners = np.arange(3 * used, dtype=np.int32).reshape(-1, 3)
-        edges = np.full(used, 0b111, np.uint8)
-        model.native.set_shape(
-            model.first_flex + 2 * number + 1,
-            positions.reshape(-1, 3),
-            corners,
-            normals,
-            uvs,
-            edges,
-        )
+        corners = np.arange(3 * len(positions), dtype=np.int32).reshape(-1, 3)
+        edges = np.full(len(positions), 0b111, np.uint8)
+        model.native.set_shape(shape + 1, positions.reshape(-1, 3), corners, normals, uvs, edges)
 
 
 def _words(records: np.ndarray) -> np.ndarray:

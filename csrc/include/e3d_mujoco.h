@@ -80,7 +80,8 @@ typedef struct e3d_muj_plane {
     double scale[2], offset[2];
 } e3d_muj_plane;
 
-/* A geom of the scene, with the meaning that mjvGeom gives to the names. */
+/* A geom of the scene, with the meaning that mjvGeom gives to the names; a flex's objid is the number of its pair of shapes:
+ * vertices and edges, and faces. */
 typedef struct e3d_muj_geom {
     int32_t type, dataid, objid, category, matid, texid, texuniform, texcoord, segid, castshadow;
     float size[3], pos[3], mat[9], rgba[4], emission, specular, shininess, reflectance, texrepeat[2];
@@ -108,7 +109,7 @@ typedef struct e3d_muj_frame {
     float ambient, fog_start, fog_end, fog[3], haze[3], line_width;
     int32_t has_haze, sky;                 /* sky: the number of its texture, or -1 */
     int32_t shadow_size;
-    int32_t builtin_uvs;                   /* pictures lie on builtin shapes by their own coordinates (MuJoCo 3.12 and later) */
+    int32_t builtin_uvs;                   /* as of MuJoCo 3.12: builtin shapes have coordinates of textures, and textures repeat by them */
     const e3d_muj_shape *shapes;
     int32_t shape_count, first_mesh, first_hfield, first_skin, first_flex;
     const e3d_muj_plane *planes;           /* the first is that of planes which belong to no model */

@@ -26,12 +26,18 @@ static muj_draw *add_draw(e3d_array *list, const muj_draw *draw)
 
 /* ---- textures ---- */
 
-static void map_by_uvs(const e3d_muj_geom *geom, muj_draw *out)
+/* The sizes of skins and flexes are those of no shape: a uniform texture repeats on them as any other. */
+static int has_size(const e3d_muj_geom *geom)
+{
+    return geom->type != E3D_MUJ_FLEX && geom->type != E3D_MUJ_SKIN;
+}
+
+static void map_by_uvs(const e3d_muj_frame *frame, const e3d_muj_geom *geom, muj_draw *out)
 {
     out->mapping = MUJ_BY_UVS;
     for (int c = 0; c < 2; c++) {
-        out->scale[c] = geom->texrepeat[c] > 0 ? geom->texrepeat[c] : 1;
-        if (geom->texuniform && geom->size[c] > 0)
+        out->scale[c] = geom->texrepeat[c] > 0 && frame->builtin_uvs ? geom->texrepeat[c] : 1;
+        if (geom->texuniform && frame->builtin_uvs && geom->size[c] > 0 && has_size(geom))
             out->scale[c] *= geom->size[c];
         out->offset[c] = geom->type == E3D_MUJ_PLANE && (geom->size[0] <= 0 || geom->size[1] <= 0) ? -0.5f : 0;
     }
@@ -74,7 +80,7 @@ static void set_texture(const e3d_muj_frame *frame, const e3d_muj_geom *geom, mu
     out->texture = texture;
     if (geom->texcoord || (texture->faces == 1 && has_uvs(geom) && frame->builtin_uvs)) {
         if (texture->faces == 1)
-            map_by_uvs(geom, out);
+            map_by_uvs(frame, geom, out);
     } else if (texture->faces == 1) {
         map_by_position(geom, out);
     } else {

@@ -99,7 +99,7 @@ typedef struct e3d_muj_light {
 typedef struct e3d_muj_frame {
     e3d_backend backend;                   /* one that is available */
     int32_t width, height, samples;
-    int32_t is_segmented;                  /* draws all geoms with a segid, each alike, at the centres of the pixels */
+    int32_t is_segmented;                  /* draws all geoms with a segid, the sky and the haze, each alike, at the centres of the pixels */
     int32_t is_wireframe, culls_backs, reflects, shadows, is_additive, has_fog;
     /* Rows of eye_from_world: to the right, up, ahead; the eye in the world; and the camera's frustum at the near plane */
     double view[3][4];

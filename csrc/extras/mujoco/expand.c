@@ -367,8 +367,8 @@ static int add_sky(muj_picture *picture)
     return add_part(picture, &picture->draws, &draw, E3D_MUJ_UNIT_CYLINDER, reach, reach, reach, 0);
 }
 
-/* The haze stands on the first plane without ends, if the head is above it. It is blended before all geoms. */
-static int add_haze(muj_picture *picture)
+/* The haze stands on the first plane without ends, if the head is above it. */
+static int add_haze(muj_picture *picture, e3d_array *list)
 {
     const e3d_muj_frame *frame = picture->frame;
     double reach = frame->far_plane * 0.7, above = 0;
@@ -394,7 +394,7 @@ static int add_haze(muj_picture *picture)
         draw.world[r][3] = frame->eye[r] - geom->mat[3 * r + 2] * above;
     }
     picture->has_haze = 1;
-    return add_part(picture, &picture->blended, &draw, E3D_MUJ_HAZE, (float)reach, (float)reach, (float)above, 0);
+    return add_part(picture, list, &draw, E3D_MUJ_HAZE, (float)reach, (float)reach, (float)above, 0);
 }
 
 int muj_expand(muj_picture *picture)
@@ -407,7 +407,7 @@ int muj_expand(muj_picture *picture)
         for (int32_t i = 0; i < frame->geom_count; i++)
             if (frame->geoms[i].segid >= 0 && !add_geom(picture, &picture->draws, i, 0))
                 return 0;
-        return 1;
+        return add_sky(picture) && add_haze(picture, &picture->draws); /* colours have left their depths, too */
     }
     for (int32_t i = 0; mirror == MUJ_NONE && i < frame->geom_count; i++)
         if (is_reflective(frame, &frame->geoms[i]))
@@ -418,5 +418,5 @@ int muj_expand(muj_picture *picture)
     for (int32_t i = 0; i < frame->geom_count; i++)
         if (i != mirror && !is_transparent(frame, &frame->geoms[i]) && !add_geom(picture, &picture->draws, i, 0))
             return 0;
-    return add_sky(picture) && add_haze(picture) && add_blended(picture);
+    return add_sky(picture) && add_haze(picture, &picture->blended) && add_blended(picture); /* geoms are blended over the haze */
 }

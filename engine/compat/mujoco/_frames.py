@@ -11,10 +11,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...errors import warn
+from ._buffer_depths import Draw
 from ._scenes import camera_of
 from .context import MjrContext
 
 _FLAGS = ("WIREFRAME", "CULL_FACE", "REFLECTION", "SHADOW", "ADDITIVE", "FOG", "HAZE", "SKYBOX")
+
+_OPAQUE_ALPHA = np.float32(0.995)
+_PLANE = 0  # of mjtGeom
 
 
 @cache
@@ -50,13 +54,53 @@ class Prepared(NamedTuple):
     flags: list[bool]
 
 
+class View(NamedTuple):
+    """What a camera sees, in a picture or beside another view.
+
+    Attributes
+    ----------
+    camera : tuple
+        From `camera_of`.
+    width : int
+    """
+
+    camera: tuple[np.ndarray, bool]
+    width: int
+
+
 def prepare(scene: Any, context: MjrContext, *, lit: bool = True) -> Prepared:
     """Read a scene's memory."""
     view, model = context.view(scene), context.model
     geoms = view.geoms(model)
-    view.set_moving_shapes(model)
+    if view.has_moving_shapes():
+        context.settle_depths()  # shapes are kept once, as they were last
+        view.set_moving_shapes(model)
     lights, ambient = view.lights(model, none=not lit)
     return Prepared(geoms, lights, ambient, [_has(scene, name) for name in _FLAGS])
+
+
+def _prepare_segments(scene: Any, context: MjrContext) -> Prepared:
+    """Read a scene's memory for pictures of geoms alone."""
+    drawn = prepare(scene, context, lit=False)
+    return drawn._replace(flags=[*drawn.flags[:-1], False])  # without the sky
+
+
+def _views_of(scene: Any, width: int, height: int) -> list[View]:
+    """Return the views of a picture, from left to right: one, or in stereo those of both eyes."""
+    if not scene.stereo:
+        return [View(camera_of(scene, width / height), width)]
+    half = width // 2
+    return [View(camera_of(scene, half / height, eye), half) for eye in (0, 1)]
+
+
+def _beside(parts: list[np.ndarray], width: int, nothing: int) -> np.ndarray:
+    """Return pictures beside one another; an odd width leaves a column where nothing is."""
+    left = width - sum(part.shape[1] for part in parts)
+    if len(parts) == 1 and not left:
+        return parts[0]
+    first = parts[0]
+    rest = np.full((len(first), left, *first.shape[2:]), nothing, first.dtype)
+    return np.concatenate([*parts, rest], axis=1)
 
 
 def draw_colors(scene: Any, context: MjrContext, width: int, height: int) -> np.ndarray:
@@ -64,36 +108,32 @@ def draw_colors(scene: Any, context: MjrContext, width: int, height: int) -> np.
     if is_segmented(scene):
         numbers = draw_segments(scene, context, width, height, numbers=True, depths=False)[0]
         assert numbers is not None
-        return segment_colors(scene, context, numbers)
-    if scene.stereo:
-        half = width // 2
-        eyes = [_draw_eye(scene, context, half, height, eye) for eye in (0, 1)]
-        out = np.concatenate(eyes + [np.zeros((height, width - 2 * half, 3), np.uint8)], axis=1)
+        out = segment_colors(scene, context, numbers)
     else:
-        out = _draw_eye(scene, context, width, height, -1)
+        prepared = prepare(scene, context)
+        views = _views_of(scene, width, height)
+        out = _beside([_draw_view(prepared, context, v, height) for v in views], width, 0)
+        context.view(scene).warn_of_labels()
+    if _has(scene, "DEPTH"):
+        warn("the flag mjRND_DEPTH of scenes is not drawn: use enable_depth_rendering()")
     if scene.framewidth:
         _draw_frame(out, int(scene.framewidth), scene.framergb)
     return out
 
 
-def _draw_eye(scene: Any, context: MjrContext, width: int, height: int, eye: int) -> np.ndarray:
-    prepared, model = prepare(scene, context), context.model
-    camera, straight = camera_of(scene, width / height, eye)
-    out = np.empty((height, width, 3), np.uint8)
+def _draw_view(prepared: Prepared, context: MjrContext, view: View, height: int) -> np.ndarray:
+    model = context.model
+    out = np.empty((height, view.width, 3), np.uint8)
     context.picture.render(
         model.native,
         prepared.geoms,
         prepared.lights,
-        camera,
-        straight,
+        *view.camera,
         model.samples,
         prepared.ambient,
         prepared.flags,
         out,
     )
-    context.view(scene).warn_of_labels()
-    if _has(scene, "DEPTH"):
-        warn("the flag mjRND_DEPTH of scenes is not drawn: use enable_depth_rendering()")
     return out
 
 
@@ -116,23 +156,38 @@ def draw_segments(
     *,
     numbers: bool,
     depths: bool,
-    prepared: Prepared | None = None,
-    camera: tuple | None = None,
 ) -> tuple[np.ndarray | None, np.ndarray | None]:
     """Return which geom shows in each pixel and its depth, (H, W) int32 and float32.
 
     The number of no geom is -1. Depths are 1 at the near plane, 0 at the far
     plane. Only geoms with a segid are drawn.
     """
-    prepared = prepared or prepare(scene, context, lit=False)
-    camera = camera or camera_of(scene, width / height)
-    geom = np.empty((height, width), np.int32) if numbers else None
-    depth = np.empty((height, width), np.float32) if depths else None
+    prepared = _prepare_segments(scene, context)
+    parts = [
+        _draw_segments_of(prepared, context, view, height, numbers=numbers, depths=depths)
+        for view in _views_of(scene, width, height)
+    ]
+    geom = _beside([part[0] for part in parts], width, -1) if numbers else None
+    depth = _beside([part[1] for part in parts], width, 0) if depths else None
+    return geom, depth
+
+
+def _draw_segments_of(
+    prepared: Prepared,
+    context: MjrContext,
+    view: View,
+    height: int,
+    *,
+    numbers: bool,
+    depths: bool,
+) -> tuple[Any, Any]:
+    geom = np.empty((height, view.width), np.int32) if numbers else None
+    depth = np.empty((height, view.width), np.float32) if depths else None
     context.picture.render(
         context.model.native,
         prepared.geoms,
         prepared.lights[:0],
-        *camera,
+        *view.camera,
         1,
         0.0,
         prepared.flags,
@@ -141,6 +196,37 @@ def draw_segments(
         depth,
     )
     return geom, depth
+
+
+def later_depths(scene: Any, context: MjrContext, width: int, height: int) -> Draw:
+    """Return what draws the depths that a picture of the scene, as it is now, leaves behind.
+
+    Colours leave those of the sky and the haze, and none of transparent geoms (R250).
+    """
+    views = _views_of(scene, width, height)
+    if is_segmented(scene):
+        kept = _prepare_segments(scene, context)
+    else:
+        kept = prepare(scene, context, lit=False)
+        eye = camera_of(scene, width / height)[0][12:15]
+        kept.geoms["segid"] = np.where(_is_transparent(kept.geoms, eye), -1, 0)
+
+    def draw(context: MjrContext) -> np.ndarray:
+        parts = [
+            _draw_segments_of(kept, context, view, height, numbers=False, depths=True)[1]
+            for view in views
+        ]
+        return _beside(parts, width, 0)
+
+    return draw
+
+
+def _is_transparent(geoms: np.ndarray, eye: np.ndarray) -> np.ndarray:
+    """Return which geoms are blended (R250)."""
+    away = eye - geoms["pos"]
+    normal = geoms["mat"][:, 2::3]
+    behind = (away[:, 0] * normal[:, 0] + away[:, 1] * normal[:, 1]) + away[:, 2] * normal[:, 2] < 0
+    return (geoms["rgba"][:, 3] < _OPAQUE_ALPHA) | ((geoms["type"] == _PLANE) & behind)
 
 
 def segment_colors(scene: Any, context: MjrContext, geom: np.ndarray) -> np.ndarray:

@@ -129,6 +129,10 @@ class SceneView:
         self._lit = (*memory, (out, ambient)) if is_all else ()  # else the next picture warns, too
         return out, ambient
 
+    def has_moving_shapes(self) -> bool:
+        """Return whether there are skins or flexes."""
+        return bool(self.scene.nskin or getattr(self.scene, "nflex", 0))
+
     def set_moving_shapes(self, model: Model) -> None:
         """Give the core the skins and flexes as they are now."""
         scene = self.scene

@@ -13,6 +13,7 @@ from ...base.thread_count import resolve_threads
 from ...base.validation import whole_number
 from ...errors import InvalidArgumentError
 from ...rendering.backend_selection import resolve_backend
+from ._buffer_depths import BufferDepths
 from ._model import Model
 from ._scenes import SceneView
 
@@ -112,9 +113,7 @@ class MjrContext:
         self._view: SceneView | None = None
         self._colors: np.ndarray | None = None
         self._model: Model | None = None
-        self._drawn: list[
-            tuple
-        ] = []  # what the buffer shows: a rectangle, and how to draw its depths
+        self.depths = BufferDepths()
         self.offWidth = self.offHeight = self.offSamples = 0
         self.shadowSize, self.lineWidth, self.shadowClip, self.shadowScale = 0, 1.0, 1.0, 0.6
         self.fogStart, self.fogEnd, self.fogRGBA = 0.0, 0.0, np.zeros(4, np.float32)
@@ -144,7 +143,7 @@ class MjrContext:
     def free(self) -> None:
         """Free the memory; arrays that were returned stay valid."""
         self._picture = self._model = self._view = self._colors = None
-        self._drawn = []
+        self.depths.clear()
 
     @property
     def model(self) -> Model:
@@ -179,29 +178,20 @@ class MjrContext:
         return self._colors
 
     def resize(self, width: int, height: int) -> None:
-        """Give the buffer another size; what it showed is lost."""
-        self.offWidth = whole_number(width, "width", 0, _MOST_PIXELS)
-        self.offHeight = whole_number(height, "height", 0, _MOST_PIXELS)
-        self._colors, self._drawn = None, []
+        """Give the buffer another size; what it showed is lost, unless the size is the same."""
+        size = tuple(
+            whole_number(value, name, 0, _MOST_PIXELS)
+            for value, name in ((width, "width"), (height, "height"))
+        )
+        if size == (self.offWidth, self.offHeight):
+            return
+        self.offWidth, self.offHeight = size
+        self._colors = None
+        self.depths.clear()
 
-    def keep_depths(self, rectangle: tuple[int, int, int, int], draw: Any) -> None:
-        """Remember how the depths of a rectangle (left, bottom, width, height) are drawn.
-
-        ``draw`` is called with the context, and must not hold it.
-        """
-        self._drawn = [each for each in self._drawn if each[0] != rectangle][-7:]
-        self._drawn.append((rectangle, draw))
-
-    def depths(self, rectangle: tuple[int, int, int, int]) -> np.ndarray:
-        """Return the depths of a rectangle, (H, W) float32, the lowest row first; 0 is far."""
-        left, bottom, width, height = rectangle
-        for where, draw in self._drawn:
-            if where == rectangle and where is self._drawn[-1][0]:
-                return draw(self)[::-1]
-        out = np.zeros((self.offHeight, self.offWidth), np.float32)
-        for (x, y, w, h), draw in self._drawn:
-            out[y : y + h, x : x + w] = draw(self)[::-1]
-        return out[bottom : bottom + height, left : left + width]
+    def settle_depths(self) -> None:
+        """Draw what depths wait, before the shapes change that they are drawn from."""
+        self.depths.settle(self)
 
 
 __all__ = ["GLContext", "MjrContext"]

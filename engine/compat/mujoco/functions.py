@@ -10,10 +10,15 @@ import numpy as np
 from ...base.numbers import shown
 from ...base.validation import whole_number
 from ...errors import InvalidArgumentError, warn
-from ._frames import Prepared, draw_colors, draw_segments, is_segmented, prepare, segment_colors
+from ._frames import draw_colors, later_depths
 from ._model import Model
-from ._scenes import camera_of
-from .context import MjrContext, check_context, check_model, check_numbers, check_scene
+from .context import (
+    MjrContext,
+    check_context,
+    check_model,
+    check_numbers,
+    check_scene,
+)
 
 _ZERO_FAR = 1  # of mjtDepthMap
 
@@ -48,30 +53,10 @@ def mjr_render(viewport: Any, scn: Any, con: MjrContext) -> None:
     if width <= 0 or height <= 0:
         return
     with con.lock:
-        if is_segmented(scn):
-            numbers, depths = draw_segments(scn, con, width, height, numbers=True, depths=True)
-            assert numbers is not None
-            colors = segment_colors(scn, con, numbers)
-            con.keep_depths(rectangle, lambda _: depths)
-        else:
-            colors = draw_colors(scn, con, width, height)
-            con.keep_depths(rectangle, _later_depths(scn, con, width, height))
+        con.depths.begin(rectangle)
+        colors = draw_colors(scn, con, width, height)
+        con.depths.add(rectangle, later_depths(scn, con, width, height), con)
         con.colors[bottom : bottom + height, left : left + width] = colors[::-1]
-
-
-def _later_depths(scn: Any, con: MjrContext, width: int, height: int) -> Any:
-    """Return a function that draws the depths of a scene as it is now, when they are asked for."""
-    drawn = prepare(scn, con, lit=False)
-    geoms = drawn.geoms.copy()
-    geoms["segid"] = 0  # all are in a picture's depths
-    kept = Prepared(geoms, drawn.lights, drawn.ambient, drawn.flags)
-    camera = camera_of(scn, width / height)
-
-    def draw(context: MjrContext) -> np.ndarray | None:
-        options: dict[str, Any] = {"prepared": kept, "camera": camera}
-        return draw_segments(None, context, width, height, numbers=False, depths=True, **options)[1]
-
-    return draw
 
 
 def mjr_readPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None:
@@ -91,7 +76,7 @@ def mjr_readPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None
         if rgb is not None:
             _fill(rgb, con.colors[bottom : bottom + height, left : left + width], "rgb")
         if depth is not None:
-            values = con.depths(rectangle)
+            values = con.depths.of(rectangle, con)
             _fill(
                 depth, values if con.readDepthMap == _ZERO_FAR else np.float32(1) - values, "depth"
             )
@@ -121,7 +106,7 @@ def mjr_restoreBuffer(con: MjrContext) -> None:
 
 
 def mjr_resizeOffscreen(width: int, height: int, con: MjrContext) -> None:
-    """Set the size of the buffer; what it showed is lost."""
+    """Set the size of the buffer; what it showed is lost, unless the size is the same."""
     check_context(con)
     with con.lock:
         con.resize(width, height)
@@ -137,17 +122,28 @@ def mjr_maxViewport(con: MjrContext) -> Any:
 
 def mjr_uploadMesh(m: Any, con: MjrContext, meshid: int) -> None:
     """Read a mesh of the model again."""
-    _model_of(m, con).upload_mesh(_checked(meshid, m.nmesh, "mesh"))
+    model = _model_of(m, con)
+    number = _checked(meshid, m.nmesh, "mesh")
+    with con.lock:
+        con.settle_depths()
+        model.upload_mesh(number)
 
 
 def mjr_uploadHField(m: Any, con: MjrContext, hfieldid: int) -> None:
     """Read a height field of the model again."""
-    _model_of(m, con).upload_hfield(_checked(hfieldid, m.nhfield, "height field"))
+    model = _model_of(m, con)
+    number = _checked(hfieldid, m.nhfield, "height field")
+    with con.lock:
+        con.settle_depths()
+        model.upload_hfield(number)
 
 
 def mjr_uploadTexture(m: Any, con: MjrContext, texid: int) -> None:
     """Read a texture of the model again."""
-    _model_of(m, con).upload_texture(_checked(texid, m.ntex, "texture"))
+    model = _model_of(m, con)
+    number = _checked(texid, m.ntex, "texture")
+    with con.lock:
+        model.upload_texture(number)
 
 
 def _model_of(model: Any, con: MjrContext) -> Model:

@@ -1,4 +1,4 @@
-"""A context's buffer: depths that are read late, and what pictures leave behind."""
+"""A context's buffer and fields: depths that are read late, rectangles, what fields change."""
 
 import os
 
@@ -9,6 +9,7 @@ os.environ.setdefault("MUJOCO_GL", "disable")
 mujoco = pytest.importorskip("mujoco", exc_type=ImportError)
 
 import engine3d.compat.mujoco as compat  # noqa: E402
+from engine3d import Engine3DWarning, InvalidArgumentError  # noqa: E402
 
 _TILE = 40
 _WORLD = """
@@ -204,3 +205,71 @@ def test_segments_have_frames():
     np.testing.assert_array_equal(framed[3:-3, 3:-3], inner[3:-3, 3:-3])
     for edge in (framed[:3], framed[-3:], framed[:, :3], framed[:, -3:]):
         assert (edge == (255, 0, 0)).all()
+
+
+# ---- fields ----
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "visual", "flag"),
+    [
+        ("shadowSize", 512, {"quality": "shadowsize='512'"}, "SHADOW"),
+        ("shadowClip", 0.25, {"map": "shadowclip='.25'"}, "SHADOW"),
+        ("shadowScale", 0.25, {"map": "shadowscale='.25'"}, "SHADOW"),
+        ("offSamples", 0, {"quality": "offsamples='0'"}, "SHADOW"),
+        ("lineWidth", 3, {"width": "linewidth='3'"}, "WIREFRAME"),
+        ("fogStart", 0.5, {"map": "fogstart='.5'"}, "FOG"),
+        ("fogEnd", 3, {"map": "fogend='3'"}, "FOG"),
+        ("fogRGBA", (0.5, 0.25, 0, 1), {"rgba": "fog='.5 .25 0 1'"}, "FOG"),
+    ],
+)
+def test_fields_of_a_context_are_read_for_each_picture(field, value, visual, flag):
+    program, other = _Program(_model()), _Program(_model(**visual))
+    for each in (program, other):
+        each.set(flag)
+    before, wanted = program.drawn()[0], other.drawn()[0]
+    assert (before != wanted).any()
+    old = getattr(program.context, field)
+    setattr(program.context, field, value)
+    np.testing.assert_array_equal(program.drawn()[0], wanted)
+    setattr(program.context, field, old)
+    np.testing.assert_array_equal(program.drawn()[0], before)
+
+
+def test_without_a_map_lights_have_no_shadows():
+    program = _Program(_model())
+    program.context.shadowSize = 0
+    found = program.drawn()[0]
+    program.context.shadowSize = 4096
+    assert (program.drawn()[0] != found).any()
+    program.set("SHADOW", 0)
+    np.testing.assert_array_equal(program.drawn()[0], found)
+
+
+def test_pixels_are_read_in_their_format():
+    program = _Program(_model())
+    rgb = program.drawn()[0]
+    program.context.readPixelFormat = 0x80E0  # GL_BGR
+    np.testing.assert_array_equal(program.read()[0], rgb[..., ::-1])
+    program.context.readPixelFormat = 0x1908  # GL_RGBA
+    with pytest.raises(InvalidArgumentError, match="readPixelFormat must be GL_RGB"):
+        program.read()
+
+
+def test_fields_that_cannot_be_drawn_are_told():
+    program = _Program(_model())
+    for field, value in (
+        *(("shadowSize", -1), ("shadowSize", 0.5), ("offSamples", None), ("lineWidth", np.nan)),
+        *(("fogStart", "near"), ("fogRGBA", (1, 2))),
+    ):
+        old = getattr(program.context, field)
+        setattr(program.context, field, value)
+        with pytest.raises(InvalidArgumentError, match=field):
+            program.draw()
+        setattr(program.context, field, old)
+    program.context.shadowSize = 20000
+    with pytest.warns(Engine3DWarning, match="shadowSize 20000 is drawn as 16000"):
+        program.draw()
+    program.context.shadowSize, program.context.currentBuffer = 64, 0
+    with pytest.warns(Engine3DWarning, match="no window"):
+        program.draw()

@@ -71,6 +71,7 @@ class View(NamedTuple):
 def prepare(scene: Any, context: MjrContext, *, lit: bool = True) -> Prepared:
     """Read a scene's memory."""
     view, model = context.view(scene), context.model
+    context.hand_over()
     geoms = view.geoms(model)
     if view.has_moving_shapes():
         context.settle_depths()  # shapes are kept once, as they were last
@@ -123,13 +124,14 @@ def draw_colors(scene: Any, context: MjrContext, width: int, height: int) -> np.
 
 def _draw_view(prepared: Prepared, context: MjrContext, view: View, height: int) -> np.ndarray:
     model = context.model
+    assert model.quality is not None
     out = np.empty((height, view.width, 3), np.uint8)
     context.picture.render(
         model.native,
         prepared.geoms,
         prepared.lights,
         *view.camera,
-        model.samples,
+        model.quality.samples,
         prepared.ambient,
         prepared.flags,
         out,

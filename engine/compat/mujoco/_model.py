@@ -16,6 +16,7 @@ import numpy as np
 from ..._native.mujoco import BUILTINS, NativeModel, halve
 from ...errors import warn
 from . import _unit_shapes
+from ._quality import Quality
 from ._unit_shapes import Triangles, grid_lines
 
 _TEXTURE_2D, _SKYBOX = 0, 2  # of mjtTexture
@@ -90,7 +91,6 @@ class Model:
     def __init__(self, model: Any, version: tuple[int, int]) -> None:
         self._model = model
         quality = model.vis.quality
-        self.samples = 4 if quality.offsamples > 0 else 1
         self.first_mesh = BUILTINS
         self.first_hfield = self.first_mesh + 2 * model.nmesh
         self.first_skin = self.first_hfield + model.nhfield
@@ -110,20 +110,8 @@ class Model:
             version >= (3, 12),
         )
         extent, maps = float(model.stat.extent), model.vis.map
-        self.shadow_clip, self.shadow_scale = (
-            extent * float(maps.shadowclip),
-            float(maps.shadowscale),
-        )
-        fog = np.array(model.vis.rgba.fog[:3], np.float32)
-        haze = np.array(model.vis.rgba.haze[:3], np.float32)
-        self.native.set_quality(
-            int(quality.shadowsize),
-            float(model.vis.global_.linewidth),
-            extent * float(maps.fogstart),
-            extent * float(maps.fogend),
-            fog,
-            haze,
-        )
+        self._haze = np.array(model.vis.rgba.haze[:3], np.float32)
+        self.quality: Quality | None = None
         self._set_builtins(quality, float(maps.haze))
         self._set_planes(plane_geoms, extent * float(maps.zfar))
         self.skins = [self._skin_faces(i) for i in range(model.nskin)]
@@ -134,6 +122,18 @@ class Model:
         for i in range(model.ntex):
             self.upload_texture(i)
         self._set_material_textures()
+
+    def set_quality(self, quality: Quality) -> None:
+        """Say how the next pictures are drawn."""
+        self.quality = quality
+        self.native.set_quality(
+            quality.shadow_size,
+            quality.line_width,
+            quality.fog_start,
+            quality.fog_end,
+            np.array(quality.fog, np.float32),
+            self._haze,
+        )
 
     def _set_shape(self, number: int, shape: Triangles) -> None:
         positions, corners = _index(shape.at)

@@ -92,9 +92,11 @@ class SceneView:
         if none:
             return np.zeros(0, LIGHT), 0.0
         every = self._lights[: self.scene.nlight]
-        memory = model, every.tobytes()
-        if self._lit[:2] == memory:
-            return self._lit[2]
+        quality = model.quality
+        assert quality is not None
+        memory = model, quality.shadow_clip, quality.shadow_scale, every.tobytes()
+        if self._lit[:-1] == memory:
+            return self._lit[-1]
         named = every.dtype.names or ()
         kind = every["type"] if "type" in named else every["directional"].astype(np.int32)
         supported = (kind == _DIRECTIONAL) | (kind == _SPOT)
@@ -120,10 +122,10 @@ class SceneView:
         out["is_directional"] = kind == _DIRECTIONAL
         for k, light in enumerate(from_):
             if kind[k] == _DIRECTIONAL:
-                out["cutoff_cosine"][k], out["shadow_reach"][k] = -2.0, model.shadow_clip
+                out["cutoff_cosine"][k], out["shadow_reach"][k] = -2.0, quality.shadow_clip
             else:
                 cutoff = float(light["cutoff"])
-                field = min(2 * cutoff * model.shadow_scale, 160.0)
+                field = min(2 * cutoff * quality.shadow_scale, 160.0)
                 out["cutoff_cosine"][k] = cos(math.radians(cutoff)) if cutoff < 180 else -2.0
                 out["shadow_reach"][k] = max(tan(math.radians(field / 2)), 1e-9)
         self._lit = (*memory, (out, ambient)) if is_all else ()  # else the next picture warns, too

@@ -11,15 +11,17 @@ from ..._native.mujoco import NativePicture
 from ...base.numbers import shown
 from ...base.thread_count import resolve_threads
 from ...base.validation import whole_number
-from ...errors import InvalidArgumentError
+from ...errors import InvalidArgumentError, warn
 from ...rendering.backend_selection import resolve_backend
 from ._buffer_depths import BufferDepths
 from ._model import Model
+from ._quality import quality_of
 from ._scenes import SceneView
 
-_OFFSCREEN = 1  # of mjtFramebuffer
+_WINDOW, _OFFSCREEN = 0, 1  # of mjtFramebuffer
 _ZERO_NEAR = 0  # of mjtDepthMap
 _MOST_AUX = 10
+_MOST_SAMPLES = 4
 _MOST_FONT_SCALE = 300  # the largest of mjtFontScale
 _MOST_PIXELS = 1 << 16  # of a side
 
@@ -52,6 +54,11 @@ def check_numbers(array: Any, name: str) -> None:
         raise InvalidArgumentError(f"{name} must be an array of NumPy, not {shown(array)}")
     if array.dtype.kind not in "biufc":
         raise InvalidArgumentError(f"{name} must hold numbers, not {array.dtype}")
+
+
+def warn_of_windows() -> None:
+    """Warn that pictures go elsewhere."""
+    warn("there is no window to draw to: pictures go to the offscreen buffer")
 
 
 def font_scale_of(value: Any, name: str) -> int:
@@ -91,8 +98,16 @@ class MjrContext:
 
     Attributes
     ----------
-    offWidth, offHeight, offSamples : int
+    offWidth, offHeight : int
         Of the buffer that `mjr_render` draws to.
+    offSamples : int
+        Whether pixels have four samples, or with 0 one.
+    shadowSize : int
+        The side of maps of shadows; with 0 no light has shadows.
+    shadowClip, shadowScale, lineWidth, fogStart, fogEnd, fogRGBA
+        As in MuJoCo; these, too, are read for each picture.
+    readPixelFormat : int
+        OpenGL's number of the order of colours that `mjr_readPixels` returns: GL_RGB or GL_BGR.
     readDepthMap : int
         Whether `mjr_readPixels` returns depths as 0 at the near plane (mjDEPTH_ZERONEAR), or at the
         far plane.
@@ -129,7 +144,7 @@ class MjrContext:
         self._model = Model(model, (int(major), int(minor)))
         vis, extent = model.vis, float(model.stat.extent)
         self.offWidth, self.offHeight = int(vis.global_.offwidth), int(vis.global_.offheight)
-        self.offSamples = self._model.samples if vis.quality.offsamples else 0
+        self.offSamples = _MOST_SAMPLES if vis.quality.offsamples > 0 else 0
         self.shadowSize, self.lineWidth = int(vis.quality.shadowsize), float(vis.global_.linewidth)
         self.shadowClip = extent * float(vis.map.shadowclip)
         self.shadowScale = float(vis.map.shadowscale)
@@ -192,6 +207,15 @@ class MjrContext:
     def settle_depths(self) -> None:
         """Draw what depths wait, before the shapes change that they are drawn from."""
         self.depths.settle(self)
+
+    def hand_over(self) -> None:
+        """Give the core what the fields say, as MuJoCo's does before each picture."""
+        quality, model = quality_of(self), self.model
+        if quality != model.quality:
+            self.settle_depths()  # lines have a width there, too
+            model.set_quality(quality)
+        if self.currentBuffer == _WINDOW:
+            warn_of_windows()
 
 
 __all__ = ["GLContext", "MjrContext"]

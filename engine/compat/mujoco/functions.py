@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...base.numbers import shown
-from ...base.validation import whole_number
+from ...base.validation import is_one_of, whole_number
 from ...errors import InvalidArgumentError, warn
 from ._frames import draw_colors, later_depths
 from ._model import Model
@@ -18,9 +18,11 @@ from .context import (
     check_model,
     check_numbers,
     check_scene,
+    warn_of_windows,
 )
 
 _ZERO_FAR = 1  # of mjtDepthMap
+_ORDERS = {6407: slice(None), 32992: slice(None, None, -1)}  # GL_RGB, GL_BGR
 
 
 def _clipped(viewport: Any, con: MjrContext) -> tuple[int, int, int, int]:
@@ -74,12 +76,22 @@ def mjr_readPixels(rgb: Any, depth: Any, viewport: Any, con: MjrContext) -> None
     rectangle = left, bottom, width, height = _clipped(viewport, con)
     with con.lock:
         if rgb is not None:
-            _fill(rgb, con.colors[bottom : bottom + height, left : left + width], "rgb")
+            order = _order_of(con.readPixelFormat)
+            _fill(rgb, con.colors[bottom : bottom + height, left : left + width, order], "rgb")
         if depth is not None:
             values = con.depths.of(rectangle, con)
             _fill(
                 depth, values if con.readDepthMap == _ZERO_FAR else np.float32(1) - values, "depth"
             )
+
+
+def _order_of(pixel_format: Any) -> slice:
+    """Return the order of a format's channels."""
+    if not is_one_of(pixel_format, _ORDERS):
+        raise InvalidArgumentError(
+            f"readPixelFormat must be GL_RGB (6407) or GL_BGR (32992), not {shown(pixel_format)}"
+        )
+    return _ORDERS[pixel_format]
 
 
 def _fill(out: np.ndarray, values: np.ndarray, name: str) -> None:
@@ -98,7 +110,7 @@ def mjr_setBuffer(framebuffer: Any, con: MjrContext) -> None:
     check_context(con)
     framebuffer = getattr(framebuffer, "value", framebuffer)
     if whole_number(framebuffer, "framebuffer", 0, 1) == 0:
-        warn("there is no window to draw to: pictures go to the offscreen buffer")
+        warn_of_windows()
 
 
 def mjr_restoreBuffer(con: MjrContext) -> None:

@@ -273,3 +273,25 @@ def test_fields_that_cannot_be_drawn_are_told():
     program.context.shadowSize, program.context.currentBuffer = 64, 0
     with pytest.warns(Engine3DWarning, match="no window"):
         program.draw()
+
+
+def test_there_are_no_fields_that_nothing_reads():
+    context = compat.MjrContext(_model())
+    for name in ("shadowFBO", "linewidth"):
+        with pytest.raises(AttributeError, match=name):
+            setattr(context, name, 0)
+
+
+def test_uploads_read_the_model_that_they_are_given():
+    program, other = _Program(_model()), _model()
+    other.mesh_vert[:] *= 0.5
+    before = program.drawn()[0].copy()
+    compat.mjr_uploadMesh(other, program.context, 0)
+    assert (program.drawn()[0] != before).any()
+    stranger = mujoco.MjModel.from_xml_string("<mujoco/>")
+    with pytest.raises(InvalidArgumentError, match="no mesh 0"):
+        compat.mjr_uploadMesh(stranger, program.context, 0)
+    text = _WORLD.format(alpha=1, map="", quality="", width="", rgba="")
+    text = text.replace("<mesh ", "<mesh name='n' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><mesh ")
+    with pytest.raises(InvalidArgumentError, match="nmesh 1, not 2"):
+        compat.mjr_uploadMesh(mujoco.MjModel.from_xml_string(text), program.context, 0)

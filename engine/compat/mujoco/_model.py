@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..._native.mujoco import BUILTINS, NativeModel, halve
-from ...errors import warn
+from ...errors import InvalidArgumentError, warn
 from . import _unit_shapes
 from ._quality import Quality
 from ._unit_shapes import Triangles, grid_lines
@@ -182,6 +182,16 @@ class Model:
             scale = [(0.5 / float(size[k]) if size[k] > 0 else 0.5) * (1, -1)[k] for k in (0, 1)]
             offset = [0.5 if size[k] > 0 else 0.0 for k in (0, 1)]
             self.native.set_plane(1 + number, *lines, scale, offset)
+
+    def read_from(self, model: Any) -> None:
+        """Let uploads read a model, which has as much of all as the one that this was made of."""
+        for name in ("nmesh", "nhfield", "ntex"):
+            wanted, count = getattr(self._model, name), getattr(model, name)
+            if count != wanted:
+                raise InvalidArgumentError(
+                    f"the context was made of a model with {name} {wanted}, not {count}"
+                )
+        self._model = model
 
     # ---- meshes ----
 

@@ -136,6 +136,13 @@ class MjrContext:
         if model is not None:
             check_model(model)
             self._take(model)
+        self._is_complete = True
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set a field. There are no others, as in MuJoCo, and none of OpenGL's objects."""
+        if name not in self.__dict__ and "_is_complete" in self.__dict__:
+            raise AttributeError(f"MjrContext has no field {name} here")
+        super().__setattr__(name, value)
 
     def _take(self, model: Any) -> None:
         import mujoco

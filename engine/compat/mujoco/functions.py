@@ -134,27 +134,27 @@ def mjr_maxViewport(con: MjrContext) -> Any:
 
 def mjr_uploadMesh(m: Any, con: MjrContext, meshid: int) -> None:
     """Read a mesh of the model again."""
-    model = _model_of(m, con)
-    number = _checked(meshid, m.nmesh, "mesh")
+    model, number = _model_of(m, con), _checked(meshid, m.nmesh, "mesh")
     with con.lock:
         con.settle_depths()
+        model.read_from(m)
         model.upload_mesh(number)
 
 
 def mjr_uploadHField(m: Any, con: MjrContext, hfieldid: int) -> None:
     """Read a height field of the model again."""
-    model = _model_of(m, con)
-    number = _checked(hfieldid, m.nhfield, "height field")
+    model, number = _model_of(m, con), _checked(hfieldid, m.nhfield, "height field")
     with con.lock:
         con.settle_depths()
+        model.read_from(m)
         model.upload_hfield(number)
 
 
 def mjr_uploadTexture(m: Any, con: MjrContext, texid: int) -> None:
     """Read a texture of the model again."""
-    model = _model_of(m, con)
-    number = _checked(texid, m.ntex, "texture")
+    model, number = _model_of(m, con), _checked(texid, m.ntex, "texture")
     with con.lock:
+        model.read_from(m)
         model.upload_texture(number)
 
 

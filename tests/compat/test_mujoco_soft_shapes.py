@@ -99,12 +99,13 @@ def test_the_frame_of_a_flex_has_the_first_material(sliced):
 def test_uniform_textures_repeat_on_flexes_and_skins_as_others(text):
     uniform = _drawn(_model(text, "tiled", uniform="true"))
     other = _drawn(_model(text, "tiled"))
-    assert len(np.unique(other)) > 20
+    assert len(np.unique(other)) > 5
     np.testing.assert_array_equal(uniform, other)
 
 
 @pytest.mark.parametrize("text", [_FLEX, _SKIN])
 def test_textures_by_coordinates_repeat_since_version_3_12(text, monkeypatch):
+    monkeypatch.setattr(mujoco, "mj_versionString", lambda: "3.12.0")
     once, thrice = (_drawn(_model(text, "tiled", n)) for n in (1, 3))
     assert (once != thrice).any()
     monkeypatch.setattr(mujoco, "mj_versionString", lambda: "3.3.7")

@@ -71,6 +71,11 @@ def shows_light(outputs: Iterable[str]) -> bool:
     return "color" in outputs or "radiance" in outputs
 
 
+def lights_faces(options: RenderOptions, outputs: Iterable[str]) -> bool:
+    """Return whether the outputs show faces with their light."""
+    return options.mode == "lit" and options.wireframe != "only" and shows_light(outputs)
+
+
 def drawn_mode(mode: Mode | OutputMode) -> Mode:
     """Return the mode that the core draws for one: an output is painted over the picture."""
     if mode in OUTPUT_MODES:

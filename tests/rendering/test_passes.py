@@ -17,6 +17,15 @@ def test_each_pass_reads_what_an_earlier_one_writes():
         written.update(one.writes)
 
 
+def test_edges_alone_need_no_pass_that_lights_faces():
+    with Renderer((8, 8)) as renderer:
+        passes = renderer._painter.passes
+        for wireframe in (None, "overlay", "only"):
+            options = e3d.RenderOptions(wireframe=wireframe, ambient_occlusion=True)
+            plan = passes.plan(options, ("color",), (8, 8))
+            assert all(isinstance(one, ColorPass) for one in plan.passes) == (wireframe == "only")
+
+
 def test_what_needs_arrays_says_what_takes_fewer():
     for one in _passes.PASSES:
         reads_arrays = any(name.startswith("surface_") for name in one.reads)

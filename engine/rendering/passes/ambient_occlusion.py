@@ -16,7 +16,7 @@ from ..._native.rasterizer import find_occlusion, occlusion_scratch
 from ...base import linalg
 from .._output_pool import Shapes
 from .._view import View
-from ..options import RenderOptions, shows_light
+from ..options import RenderOptions, lights_faces
 from .protocol import Pass, Picture
 
 #: The default radius, as a fraction of the diagonal of the scene's box.
@@ -69,9 +69,7 @@ class AmbientOcclusion(Pass):
     name, advice = "ambient occlusion", "ambient_occlusion=False"
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        if not options.ambient_occlusion or options.mode != "lit" or not shows_light(wanted):
-            return False
-        return options.wireframe != "only"
+        return options.ambient_occlusion and lights_faces(options, wanted)
 
     def arrays(self, width: int, height: int) -> Shapes:
         floats = np.dtype(np.float32)

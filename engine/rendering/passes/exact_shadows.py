@@ -18,7 +18,7 @@ from ...model.scene.staged_scene import AnyScene
 from .._memo import Memo
 from ..casters import placed_casters
 from ..draw_list.lamps import lamp_slots
-from ..options import RenderOptions, shows_light
+from ..options import RenderOptions, lights_faces
 from .protocol import Pass, Picture, Tools
 from .shadow_maps import size_of
 
@@ -41,7 +41,7 @@ class ExactShadows(Pass):
         self._version = 0
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        return options.mode == "lit" and shows_light(wanted)
+        return lights_faces(options, wanted)
 
     def draw(self, picture: Picture) -> None:
         draw_list, scene = self.tools.draw_list, picture.scene

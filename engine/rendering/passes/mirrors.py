@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base.image_size import MAX_SIZE
-from ..options import RenderOptions, as_mirrored, shows_light
+from ..options import RenderOptions, as_mirrored, lights_faces
 from .mirror_backgrounds import MirrorBackgrounds
 from .mirror_planes import MirrorFinder, MirrorPlane, slack_of
 from .mirror_views import Reflection, part_of
@@ -35,7 +35,7 @@ class Mirrors(Pass):
         self._views: dict[int, tuple[tuple[object, ...], Reflection]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        return options.mode == "lit" and options.mirror_depth > 0 and shows_light(wanted)
+        return options.mirror_depth > 0 and lights_faces(options, wanted)
 
     def draw(self, picture: Picture) -> None:
         if not self.tools.draw_list.has_mirrors:

@@ -14,7 +14,7 @@ import numpy as np
 from ..._native import rasterizer as _native
 from .._frame_memory import Use
 from .._output_pool import OutputPool, Shapes, shapes_of
-from ..options import RenderOptions, shows_light
+from ..options import RenderOptions, lights_faces
 from .output_passes import ONE_SAMPLE, draw_outputs
 from .protocol import Pass, Picture, Tools
 
@@ -38,9 +38,9 @@ class Refraction(Pass):
         self._samples = 1, multiple or (axis * axis if axis > 1 else 0)
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        if not options.refraction or options.mode != "lit" or not shows_light(wanted):
+        if not options.refraction or options.hidden_surfaces != "zbuffer":
             return False
-        return options.wireframe != "only" and options.hidden_surfaces == "zbuffer"
+        return lights_faces(options, wanted)
 
     def draw(self, picture: Picture) -> None:
         if not self.tools.draw_list.native.refracts():

@@ -27,7 +27,7 @@ from .._memo import Memo
 from ..casters import placed_casters
 from ..draw_list.lamps import lamp_slots
 from ..draw_list.light_list import Where
-from ..options import RenderOptions, shows_light
+from ..options import RenderOptions, lights_faces
 from .protocol import Pass, Picture, Tools
 from .shadow_region import Lookups, lookups_of, region_of
 from .shadow_views import VIEWS, MapView, ShadowViews, Sight, sight_of
@@ -144,7 +144,7 @@ class ShadowMaps(Pass):
         self._cut: dict[int, tuple[tuple[object, ...], Sight]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        return options.mode == "lit" and shows_light(wanted)
+        return lights_faces(options, wanted)
 
     def draw(self, picture: Picture) -> None:
         scene, draw_list = picture.scene, self.tools.draw_list

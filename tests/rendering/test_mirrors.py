@@ -127,6 +127,36 @@ def test_a_floor_mirrors():
     assert (color[56, 30:34] == (0, 0, 255, 255)).all()  # the background, mirrored
 
 
+def test_a_far_thing_takes_nothing_out_of_a_mirror():
+    """What stands on a mirror is reflected down to it, however large the scene is."""
+    camera = e3d.PerspectiveCamera(0.3), linalg.look_at((0, 0.3, 1), (0, 0, 0))
+    pictures = []
+    for far in (10.0, 1e5):
+        scene = e3d.Scene(background=(0, 0, 0), ambient=e3d.linear(1, 1, 1))
+        scene.add(matter(e3d.plane((4, 4)), color=(0, 0, 0), mirror=1.0))
+        stands = matter(e3d.box(0.1), color=(255, 0, 0), unlit=True)
+        scene.add(stands, translation=(0, 0.05, 0))
+        scene.add(e3d.box(0.1), translation=(far, 0, 0))
+        with Renderer((64, 64)) as renderer:
+            pictures.append(renderer.render(scene, camera).color)
+    assert np.array_equal(*pictures)
+
+
+def test_a_mirror_far_from_the_origin_of_its_mesh_is_flat():
+    """The rounding of coordinates that the pose takes back is the mirror's own."""
+    turn = linalg.rotation_y(0.3) @ linalg.rotation_x(0.2) @ UPRIGHT
+    pane, away = e3d.plane((1.4, 1.0)), np.array((9000.0, 5000.0, 7000.0))
+    corners = linalg.transform_points(turn, pane.positions.astype(np.float64)) + away
+    near = e3d.Mesh((corners - away).astype(np.float32), pane.faces)
+    apart = e3d.Mesh(corners.astype(np.float32), pane.faces)
+    shown = []
+    for mesh, origin in ((near, np.zeros(3)), (apart, away)):
+        scene = room(FLAT)
+        scene.add(matter(mesh, color=(0, 0, 0), mirror=1.0), translation=(0, 0.6, 0) - origin)
+        shown.append((draw(scene).color != draw(scene, mirror_depth=0).color).any(axis=2).sum())
+    assert 0.95 * shown[0] < shown[1] < 1.05 * shown[0]
+
+
 @pytest.mark.parametrize("background", [None, (90, 110, 150), "gradient", "sky"])
 def test_what_lies_beyond(background):
     named = {"gradient": e3d.Gradient((255, 0, 0), (0, 0, 255)), "sky": e3d.Environment.sky()}

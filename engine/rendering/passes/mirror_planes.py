@@ -27,8 +27,8 @@ from .protocol import Picture
 
 #: How many mirrors a view may show: each is a picture of its own.
 MOST_MIRRORS = 8
-#: How far from its plane a corner may lie, as a share of the size.
-SLACK = 2.0**-19
+_SLACK = 2.0**-19  # how far from its plane a corner may lie, as a share of its coordinates
+_WITHIN = 4.0  # a scene this many times as large as its mirror, or more, does not matter
 
 
 class FlatFaces(NamedTuple):
@@ -58,20 +58,18 @@ class MirrorPlane(NamedTuple):
         Towards the viewer, of unit length.
     offset : float
     rectangles : list of (4, 3) float64
+    slack : float
+        How far from the plane corners of the faces may lie, by the rounding of their coordinates.
     """
 
     normal: NDArray[np.float64]
     offset: float
     rectangles: list[NDArray[np.float64]]
+    slack: float
 
     def height(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return how far points are before the plane."""
         return np.asarray(linalg.dot(points, self.normal) - self.offset)
-
-
-def slack_of(bounds: NDArray[np.float64]) -> float:
-    """Return how far from a plane corners may lie; ``bounds`` are the scene's."""
-    return SLACK * max(float(np.abs(bounds).max()), 2.0**-100)
 
 
 # ---- in a mesh ----
@@ -112,8 +110,9 @@ def _find(mesh: Mesh, looks: tuple[tuple[bool, bool], ...]) -> list[FlatFaces] |
         largest = int(areas.argmax())
         normal = normals[largest] / areas[largest]
         heights = linalg.dot(corners - corners[largest, 0], normal)
-        slack = SLACK * float(np.abs(corners).max())
-        here = (np.abs(heights) <= slack).all(axis=1)
+        reaches = np.abs(corners).max(axis=(1, 2))
+        slacks = _SLACK * np.maximum(reaches, reaches[largest])
+        here = np.abs(heights).max(axis=1) <= slacks
         faces_away = linalg.dot(normals[here], normal) < 0.0
         shows_backs = bool((backs[here] | faces_away).any())
         found.append(FlatFaces(normal, _rectangle(corners[here], normal), shows_backs))
@@ -150,7 +149,7 @@ class MirrorFinder:
         self._flat: dict[int, list[FlatFaces]] = {}  # by the number of the object
         self._warned: set[str] = set()
 
-    def find(self, picture: Picture, slack: float) -> list[MirrorPlane]:
+    def find(self, picture: Picture) -> list[MirrorPlane]:
         """Return the planes of mirrors that a view may see the right side of.
 
         Warns if they are more than `MOST_MIRRORS`, or if faces that should mirror are not flat.
@@ -160,6 +159,7 @@ class MirrorFinder:
             self._list(data.objects.objects)
             self._listed.done()
         planes: list[MirrorPlane] = []
+        reach = float(np.abs(picture.scene.bounds).max())
         columns, count = data.arrays.columns, data.arrays.count
         shown = columns["flags"][:count] & SHOWN != 0
         for number, flat in self._flat.items():
@@ -167,7 +167,7 @@ class MirrorFinder:
             slots = np.flatnonzero(shown & (columns["object"][:count] == number))
             for pose in matrices_of(columns["world"][slots]):
                 for faces in flat:
-                    _add(planes, _placed(faces, pose, picture.view, backs), slack)
+                    _add(planes, _placed(faces, pose, picture.view, backs, reach))
         if len(planes) > MOST_MIRRORS:
             self.warn(
                 f"a view shows {MOST_MIRRORS} mirrors, not {len(planes)}: the others look as "
@@ -204,9 +204,12 @@ def _shows_backs(cull: FrameCull, is_closed: bool) -> bool:
 
 
 def _placed(
-    faces: FlatFaces, pose: NDArray[np.float64], view: View, backs: bool
+    faces: FlatFaces, pose: NDArray[np.float64], view: View, backs: bool, reach: float
 ) -> MirrorPlane | None:
-    """Return flat faces in the world; None if their mirror shows nothing to a view."""
+    """Return flat faces in the world; None if their mirror shows nothing to a view.
+
+    ``reach`` is the greatest coordinate of the scene's box.
+    """
     rectangle = linalg.transform_points(pose, faces.rectangle)
     normal = linalg.dot(linalg.normal_matrix(pose), faces.normal)
     length = float(linalg.length(normal))
@@ -218,15 +221,28 @@ def _placed(
     height = float(linalg.dot(normal, eye)) - offset * view.eye[3]
     if height < 0.0 and (backs or faces.shows_backs):
         normal, offset, height = -normal, -offset, -height
-    return MirrorPlane(normal, offset, [rectangle]) if height > 0.0 else None
+    slack = _slack_of(pose, faces.rectangle, reach)
+    return MirrorPlane(normal, offset, [rectangle], slack) if height > 0.0 else None
 
 
-def _add(planes: list[MirrorPlane], plane: MirrorPlane | None, slack: float) -> None:
+def _slack_of(pose: NDArray[np.float64], points: NDArray[np.float64], reach: float) -> float:
+    """Return how far from their plane points may lie, once placed.
+
+    It covers the rounding of their own coordinates, also of those that the pose takes back. That of
+    the scene's, ``reach``, would take what stands on a mirror out of it if anything is far away.
+    """
+    own = float(linalg.transform_points(np.abs(pose), np.abs(points)).max())
+    return _SLACK * max(min(max(reach, own / _WITHIN), own * _WITHIN), 2.0**-100)
+
+
+def _add(planes: list[MirrorPlane], plane: MirrorPlane | None) -> None:
     """Add a plane, or its rectangles to one that it agrees with."""
     if plane is None:
         return
-    for other in planes:
+    for k, other in enumerate(planes):
+        slack = max(other.slack, plane.slack)
         if np.abs(other.height(plane.rectangles[0])).max() <= slack:
-            other.rectangles.extend(plane.rectangles)
+            rectangles = other.rectangles + plane.rectangles
+            planes[k] = other._replace(rectangles=rectangles, slack=slack)
             return
     planes.append(plane)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...base import linalg
 from ...base.box_corners import box_corners
 from .._view import View
-from .mirror_planes import MirrorPlane, slack_of
+from .mirror_planes import MirrorPlane
 
 _STEP = 64  # samples: parts of pictures begin and end at multiples
 _NEAREST = 2.0**-30  # of the greatest w: nearer corners are beside the picture
@@ -123,7 +123,7 @@ class Reflection(View):
         turn = linalg.transform_points if view.eye[3] else linalg.transform_directions
         self.eye = (*turn(reflect, np.array(view.eye[:3])).tolist(), view.eye[3])
         # The mirror itself, which lies up to its slack before the plane, isn't shown.
-        above = np.array([*plane.normal, -(plane.offset + 2.0 * slack_of(bounds))])
+        above = np.array([*plane.normal, -(plane.offset + 2.0 * plane.slack)])
         if view.eye[3]:
             steepest = _steepest(clip, plane.normal)
         else:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...base.image_size import MAX_SIZE
 from ..options import RenderOptions, as_mirrored, lights_faces
 from .mirror_backgrounds import MirrorBackgrounds
-from .mirror_planes import MirrorFinder, MirrorPlane, slack_of
+from .mirror_planes import MirrorFinder, MirrorPlane
 from .mirror_views import Reflection, part_of
 from .protocol import MirrorPainter, Pass, Picture, Shot, Tools
 
@@ -41,8 +41,7 @@ class Mirrors(Pass):
         if not self.tools.draw_list.has_mirrors:
             return
         scene, bounds = picture.scene, picture.scene.bounds
-        slack = slack_of(bounds)
-        for plane in self._finder.find(picture, slack):
+        for plane in self._finder.find(picture):
             view = self._view(picture, plane, bounds)
             if view is None:
                 continue
@@ -54,7 +53,7 @@ class Mirrors(Pass):
             self.tools.memory.add_mirror(painter.memory)
             numbers = (*plane.normal.tolist(), plane.offset)
             place = view.part.left, view.part.top, view.scale
-            picture.mirrors.append((numbers, slack, *place, radiance))
+            picture.mirrors.append((numbers, plane.slack, *place, radiance))
 
     def _view(
         self, picture: Picture, plane: MirrorPlane, bounds: NDArray[np.float64]
@@ -73,7 +72,8 @@ class Mirrors(Pass):
             return None
         is_small = _FINER * max(part.width, part.height) <= MAX_SIZE
         scale = _FINER if multiple and is_small else 1
-        made_of = picture.view, plane.normal.tobytes(), plane.offset, part, scale, bounds.tobytes()
+        numbers = plane.normal.tobytes(), plane.offset, plane.slack
+        made_of = picture.view, *numbers, part, scale, bounds.tobytes()
         known = self._views.get(len(picture.mirrors))
         if known is None or known[0] != made_of:
             view = Reflection(picture.view, plane, part, samples, scale, bounds)

@@ -17,6 +17,7 @@ from ..model.scene.staged_scene import AnyScene
 from ._frame_memory import FrameMemory, Use
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
+from ._told import Told
 from ._turn import RendererTurn
 from .draw_list.draw_list import DrawList
 from .options import RenderOptions, with_both_sides
@@ -43,6 +44,8 @@ class Painter:
         Of the renderer, whose caller holds it.
     around : FrameMemory, optional
         That of the picture which shows this one's in a mirror.
+    told : Told, optional
+        What the pictures of the same frames told.
 
     Attributes
     ----------
@@ -54,13 +57,20 @@ class Painter:
     passes : Passes
     """
 
-    def __init__(self, how: How, turn: RendererTurn, around: FrameMemory | None = None) -> None:
+    def __init__(
+        self,
+        how: How,
+        turn: RendererTurn,
+        around: FrameMemory | None = None,
+        told: Told | None = None,
+    ) -> None:
         backend, threads, color_space, samples = how
         self.native = NativeRenderer(backend, threads)
         self.draw_list = DrawList(color_space, threads)
         self.options = OptionsCache(color_space, threads)
         self.memory = FrameMemory(*samples, threads, around)
         self.how, self._turn = how, turn
+        self._told = Told() if told is None else told
         self._pool = OutputPool()
         turn.hold(self.native)
         self.passes = Passes(
@@ -72,13 +82,14 @@ class Painter:
                 threads,
                 color_space == "srgb",
                 samples,
+                self._told,
                 self.another,
             )
         )
 
     def another(self) -> Painter:
         """Return a painter with one sample per pixel."""
-        return Painter(self.how._replace(samples=(1, 0)), self._turn, self.memory)
+        return Painter(self.how._replace(samples=(1, 0)), self._turn, self.memory, self._told)
 
     def look(
         self, scene: AnyScene, options: RenderOptions, listed: tuple[str, ...], shot: Shot

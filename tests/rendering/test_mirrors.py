@@ -244,6 +244,53 @@ def test_what_is_left_out_is_said():
         draw(mirrored_by(LIT), size=(16, 16))
 
 
+def beside_mirrors(count):
+    """A mirror that shows red, and smaller ones elsewhere: out of the picture, or in its corner."""
+    scene = e3d.Scene(background=(0, 0, 0), ambient=e3d.linear(1, 1, 1))
+    for k, x in enumerate([100.0, -2.5][:count] * 9):
+        scene.add(matter(e3d.plane((0.2, 0.2)), mirror=1.0), pose=facing(x, 2.0, -0.1 * k))
+    scene.add(matter(e3d.plane((1, 1)), color=(0, 0, 0), mirror=1.0), pose=facing(0, 0, -9.0))
+    behind = matter(e3d.plane((9, 9)), color=(255, 0, 0), unlit=True)
+    scene.add(behind, pose=facing(0, 0, 6.0) @ linalg.rotation_x(np.pi))
+    return scene
+
+
+def facing(x, y, z):
+    return linalg.translation((x, y, z)) @ UPRIGHT
+
+
+AHEAD = e3d.PerspectiveCamera(0.9), linalg.look_at((0, 0, 5), (0, 0, 0))
+
+
+def test_mirrors_out_of_the_picture_do_not_count():
+    with warnings.catch_warnings(), Renderer((64, 48)) as renderer:
+        warnings.simplefilter("error")
+        color = renderer.render(beside_mirrors(1), AHEAD).color
+    assert (color[24, 32] == (255, 0, 0, 255)).all()
+
+
+def test_of_too_many_mirrors_the_largest_show():
+    with Renderer((640, 480)) as renderer, pytest.warns(e3d.errors.Engine3DWarning, match="not 10"):
+        color = renderer.render(beside_mirrors(2), AHEAD).color
+    assert (color[240, 320] == (255, 0, 0, 255)).all()
+
+
+@pytest.mark.parametrize("camera", [CAMERA, e3d.FisheyeCamera(20, 20, 32, 24)])
+def test_what_is_left_out_is_said_once(camera):
+    """Also by the views in mirrors, and by all faces of a lens."""
+    scene = e3d.Scene()
+    for k in range(10):
+        scene.add(matter(e3d.plane(), mirror=1.0), translation=(0, -k * 0.1, 0))
+        scene.add(matter(e3d.plane(), mirror=1.0), pose=facing(0, 1, -k * 0.1))
+    scene.add(matter(e3d.uv_sphere(), name="chrome", mirror=1.0))
+    with warnings.catch_warnings(record=True) as told, Renderer((64, 48)) as renderer:
+        warnings.simplefilter("always")
+        renderer.render(scene, (camera, POSE), mirror_depth=3)
+        renderer.render(scene, (camera, POSE))
+    assert sum("8 mirrors, not" in str(one.message) for one in told) == 1
+    assert sum("chrome" in str(one.message) for one in told) == 1
+
+
 def test_a_mirror_of_too_many_samples_is_left_out_and_said(monkeypatch):
     monkeypatch.setattr("engine3d.rendering.passes.mirrors.MAX_SIZE", 60)
     without = draw(mirrored_by(LIT, mirror=0.0), size=(64, 64)).color

@@ -25,6 +25,7 @@ from .._lens_view import LensView
 from .._memo import Memo
 from .._output_pool import OutputPool, Shapes, shapes_of
 from .._painter import How, Painter
+from .._told import Told
 from .._turn import RendererTurn
 from .._view import View
 from ..options import RenderOptions
@@ -84,7 +85,7 @@ class LensPainter:
         self._plans: dict[tuple[Any, ...], LensPlan] = {}
         self._pool = OutputPool()
         self._codes: NDArray[np.uint8] | None = None
-        self._told = Memo()
+        self._told, self._told_by_faces = Memo(), Told()
 
     def forget(self) -> None:
         """Free unused arrays."""
@@ -145,7 +146,7 @@ class LensPainter:
         """Draw a pinhole picture into its part of the arrays, and return it."""
         face = plan.faces[k]
         if k == len(self._painters):
-            self._painters.append(Painter(self._how, self._turn))
+            self._painters.append(Painter(self._how, self._turn, told=self._told_by_faces))
         painter = self._painters[k]
         options = faces_options(through.options, plan.scale)
         width, height = face.size

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 from ..._native.scene_graph import SHOWN
 from ...base import linalg
 from ...choices import FrameCull
-from ...errors import warn
 from ...model.geometry.mesh import Mesh
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.node_arrays import matrices_of
+from ...model.scene.staged_data import AnyData
 from .._memo import Memo
+from .._told import Told
 from .._view import View
 from ..draw_list.draw_list import DrawList
 from .protocol import Picture
@@ -141,22 +142,22 @@ class MirrorFinder:
     Parameters
     ----------
     draw_list : DrawList
+    told : Told
     """
 
-    def __init__(self, draw_list: DrawList) -> None:
-        self._draw_list = draw_list
+    def __init__(self, draw_list: DrawList, told: Told) -> None:
+        self._draw_list, self._told = draw_list, told
         self._listed = Memo()
         self._flat: dict[int, list[FlatFaces]] = {}  # by the number of the object
-        self._warned: set[str] = set()
 
     def find(self, picture: Picture) -> list[MirrorPlane]:
         """Return the planes of mirrors that a view may see the right side of.
 
-        Warns if they are more than `MOST_MIRRORS`, or if faces that should mirror are not flat.
+        Warns if faces that should mirror are not flat.
         """
         data = picture.scene.data
         if self._listed.differs(data, data.objects.version, self._draw_list.renewals):
-            self._list(data.objects.objects)
+            self._list(data, data.objects.objects)
             self._listed.done()
         planes: list[MirrorPlane] = []
         reach = float(np.abs(picture.scene.bounds).max())
@@ -168,14 +169,9 @@ class MirrorFinder:
             for pose in matrices_of(columns["world"][slots]):
                 for faces in flat:
                     _add(planes, _placed(faces, pose, picture.view, backs, reach))
-        if len(planes) > MOST_MIRRORS:
-            self.warn(
-                f"a view shows {MOST_MIRRORS} mirrors, not {len(planes)}: the others look as "
-                "without Material.mirror"
-            )
-        return planes[:MOST_MIRRORS]
+        return planes
 
-    def _list(self, objects: Sequence[object]) -> None:
+    def _list(self, data: AnyData, objects: Sequence[object]) -> None:
         self._flat = {}
         for number, obj in enumerate(objects):
             mesh = obj if isinstance(obj, Mesh) else getattr(obj, "mesh", None)
@@ -185,18 +181,13 @@ class MirrorFinder:
             if flat is None:
                 names = ", ".join(one.name or "?" for one in mesh.materials if one.mirror > 0)
                 kind = "instances" if isinstance(obj, InstancedMesh) else "faces that are not flat"
-                self.warn(
+                self._told.warn(
+                    data,
                     f"{mesh!r}: {kind} look as without Material.mirror (materials: {names}): a "
-                    f"mirror is a mesh whose faces lie in at most {MOST_MIRRORS} planes"
+                    f"mirror is a mesh whose faces lie in at most {MOST_MIRRORS} planes",
                 )
             elif flat:
                 self._flat[number] = flat
-
-    def warn(self, words: str) -> None:
-        """Warn of what is left out, once."""
-        if words not in self._warned:
-            self._warned.add(words)
-            warn(words)
 
 
 def _shows_backs(cull: FrameCull, is_closed: bool) -> bool:

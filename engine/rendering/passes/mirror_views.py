@@ -22,12 +22,20 @@ _NEAREST = 2.0**-30  # of the greatest w: nearer corners are beside the picture
 
 
 class Part(NamedTuple):
-    """A rectangle of a picture's samples."""
+    """A rectangle of a picture's samples.
+
+    Attributes
+    ----------
+    left, top, width, height : int
+    area : float
+        Samples of the picture within the outline of what it shows.
+    """
 
     left: int
     top: int
     width: int
     height: int
+    area: float
 
 
 def part_of(plane: MirrorPlane, view: View, size: tuple[int, int]) -> Part | None:
@@ -39,9 +47,12 @@ def part_of(plane: MirrorPlane, view: View, size: tuple[int, int]) -> Part | Non
     columns, rows = _outline(np.stack([x, y, w]))
     if not len(columns):
         return None
-    left, right = _steps((columns + 1.0) * 0.5 * size[0], size[0])
-    top, bottom = _steps((1.0 - rows) * 0.5 * size[1], size[1])
-    return Part(left, top, right - left, bottom - top) if left < right and top < bottom else None
+    columns, rows = (columns + 1.0) * 0.5 * size[0], (1.0 - rows) * 0.5 * size[1]
+    (left, right), (top, bottom) = _steps(columns, size[0]), _steps(rows, size[1])
+    if not (left < right and top < bottom):
+        return None
+    area = float(np.ptp(columns.clip(0, size[0])) * np.ptp(rows.clip(0, size[1])))
+    return Part(left, top, right - left, bottom - top, area)
 
 
 def _outline(corners: NDArray[np.float64]) -> NDArray[np.float64]:

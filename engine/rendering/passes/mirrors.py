@@ -7,14 +7,11 @@ radiance that it reflects at each sample of a part of the picture, by which the 
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ...base.image_size import MAX_SIZE
 from ..options import RenderOptions, as_mirrored, lights_faces
 from .mirror_backgrounds import MirrorBackgrounds
-from .mirror_planes import MirrorFinder, MirrorPlane
-from .mirror_views import Reflection, part_of
+from .mirror_planes import MOST_MIRRORS, MirrorFinder, MirrorPlane
+from .mirror_views import Part, Reflection, part_of
 from .protocol import MirrorPainter, Pass, Picture, Shot, Tools
 
 _FINER = 2  # rows and columns in a pixel with multisampling, whose outputs have one sample
@@ -28,10 +25,10 @@ class Mirrors(Pass):
 
     def __init__(self, tools: Tools) -> None:
         super().__init__(tools)
-        self._finder = MirrorFinder(tools.draw_list)
+        self._finder = MirrorFinder(tools.draw_list, tools.told)
         self._backgrounds = MirrorBackgrounds(tools.is_srgb)
-        # By the mirror's number in the picture: what draws it, and its view with its inputs.
-        self._painters: list[MirrorPainter] = []
+        self._painters: list[MirrorPainter] = []  # by the mirror's number in the picture
+        # By the number of the mirror's plane: its view with its inputs.
         self._views: dict[int, tuple[tuple[object, ...], Reflection]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
@@ -40,45 +37,72 @@ class Mirrors(Pass):
     def draw(self, picture: Picture) -> None:
         if not self.tools.draw_list.has_mirrors:
             return
-        scene, bounds = picture.scene, picture.scene.bounds
-        for plane in self._finder.find(picture):
-            view = self._view(picture, plane, bounds)
-            if view is None:
-                continue
+        for plane, view in self._views_of(picture):
             fineness = self.tools.samples[0] * view.scale
             options = as_mirrored(picture.options, fineness)
             shot = self._shot(picture, view, fineness)
             painter = self._painter(len(picture.mirrors))
-            radiance = painter.radiance(scene, options, shot)
+            radiance = painter.radiance(picture.scene, options, shot)
             self.tools.memory.add_mirror(painter.memory)
             numbers = (*plane.normal.tolist(), plane.offset)
             place = view.part.left, view.part.top, view.scale
             picture.mirrors.append((numbers, plane.slack, *place, radiance))
 
-    def _view(
-        self, picture: Picture, plane: MirrorPlane, bounds: NDArray[np.float64]
-    ) -> Reflection | None:
-        """Return the view of what a mirror shows; None if it shows nothing."""
+    def _views_of(self, picture: Picture) -> list[tuple[MirrorPlane, Reflection]]:
+        """Return the mirrors that a picture shows, and the views of what they show.
+
+        Of more than `MOST_MIRRORS` these are the ones that cover most of it, and of equal ones the
+        first.
+        """
+        axis = self.tools.samples[0]
+        samples = picture.size[0] * axis, picture.size[1] * axis
+        planes = self._finder.find(picture)
+        found = [(k, self._part_of(picture, plane, samples)) for k, plane in enumerate(planes)]
+        parts = [(k, part) for k, part in found if part is not None]
+        views: dict[int, Reflection] = {}
+        for k, part in sorted(parts, key=lambda one: -one[1].area):
+            view = self._view(picture, k, planes[k], part)
+            if view.is_usable:
+                views[k] = view
+            if len(views) == MOST_MIRRORS:
+                break
+        if len(views) < len(parts) and len(views) == MOST_MIRRORS:
+            self.tools.told.warn(
+                picture.scene.data,
+                f"a view shows {MOST_MIRRORS} mirrors, not {len(parts)}: those that "
+                "cover less of it look as without Material.mirror",
+                kind="too many mirrors",
+            )
+        return [(planes[k], views[k]) for k in sorted(views)]
+
+    def _part_of(
+        self, picture: Picture, plane: MirrorPlane, samples: tuple[int, int]
+    ) -> Part | None:
+        """Return the part of a picture that may show a mirror; None if it shows nothing."""
+        part = part_of(plane, picture.view, samples)
+        if part is None or max(part.width, part.height) <= MAX_SIZE:
+            return part
+        self.tools.told.warn(
+            picture.scene.data,
+            f"a mirror that shows on {part.width}x{part.height} samples looks as without "
+            f"Material.mirror: they may be {MAX_SIZE} a side; fewer pixels or samples help",
+            kind="too large a mirror",
+        )
+        return None
+
+    def _view(self, picture: Picture, number: int, plane: MirrorPlane, part: Part) -> Reflection:
+        """Return the view of what a mirror shows: the last one of its number if it is the same."""
         axis, multiple = self.tools.samples
         samples = picture.size[0] * axis, picture.size[1] * axis
-        part = part_of(plane, picture.view, samples)
-        if part is None:
-            return None
-        if max(part.width, part.height) > MAX_SIZE:
-            self._finder.warn(
-                f"a mirror that shows on {part.width}x{part.height} samples looks as without "
-                f"Material.mirror: they may be {MAX_SIZE} a side; fewer pixels or samples help"
-            )
-            return None
         is_small = _FINER * max(part.width, part.height) <= MAX_SIZE
-        scale = _FINER if multiple and is_small else 1
+        scale, bounds = _FINER if multiple and is_small else 1, picture.scene.bounds
         numbers = plane.normal.tobytes(), plane.offset, plane.slack
         made_of = picture.view, *numbers, part, scale, bounds.tobytes()
-        known = self._views.get(len(picture.mirrors))
+        known = self._views.get(number)
         if known is None or known[0] != made_of:
             view = Reflection(picture.view, plane, part, samples, scale, bounds)
-            known = self._views[len(picture.mirrors)] = made_of, view
-        return known[1] if known[1].is_usable else None
+            known = self._views[number] = made_of, view
+        return known[1]
 
     def _shot(self, picture: Picture, view: Reflection, fineness: int) -> Shot:
         beyond = self._backgrounds.beyond(picture.scene, picture.options)

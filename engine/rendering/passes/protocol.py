@@ -20,6 +20,7 @@ from ...model.scene.staged_scene import AnyScene
 from .._frame_memory import FrameMemory
 from .._frame_options import FrameOptions
 from .._output_pool import Shapes
+from .._told import Told
 from .._view import View
 from ..draw_list.draw_list import DrawList
 from ..options import RenderOptions
@@ -57,6 +58,7 @@ class Tools(NamedTuple):
     threads: int
     is_srgb: bool
     samples: tuple[int, int]  # per pixel: along an axis, and multisamples of each
+    told: Told
     another: Callable[[], MirrorPainter]  # with one sample per pixel
 
 

@@ -9,7 +9,7 @@ static inline int e3d_mirrors_are_valid(const e3d_frame *frame)
         return 0;
     for (int32_t i = 0; i < frame->mirror_count; i++) {
         const e3d_mirror *mirror = &frame->mirrors[i];
-        if ((mirror->scale != 1 && mirror->scale != 2) || mirror->width < 0 || mirror->height < 0 || (mirror->width && mirror->height && !mirror->radiance))
+        if ((mirror->scale != 1 && mirror->scale != 2 && mirror->scale != 4) || mirror->width < 0 || mirror->height < 0 || (mirror->width && mirror->height && !mirror->radiance))
             return 0;
     }
     return 1;

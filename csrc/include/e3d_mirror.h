@@ -14,7 +14,7 @@ typedef struct e3d_mirror {
     float slack;     /* how far from the plane a face's corners may lie */
     /* Where the picture lies in the frame's samples, with multisampling in its pixels */
     int32_t left, top, width, height;
-    int32_t scale;         /* 1, or 2: a sample has the mean of 2 x 2 pixels of the picture */
+    int32_t scale;         /* 1, 2 or 4: a sample has the mean of scale x scale pixels of the picture */
     const float *radiance; /* (scale * height, scale * width, 3) */
 } e3d_mirror;
 

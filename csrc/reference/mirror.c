@@ -1,6 +1,6 @@
 /* Mirrors: faces that show a picture of what their plane reflects.
  * In: a surface, the frame's mirrors with their pictures. Out: the share of a mirror, and what its picture shows.
- * Rules: R210, R213 (means of multisampled pictures). */
+ * Rules: R210, R213 and R272 (means of several pixels). */
 #include <math.h>
 
 #include "reference/arithmetic.h"
@@ -32,13 +32,24 @@ static const e3d_mirror *mirror_of(const e3d_frame *frame, const ref_surface *su
     return NULL;
 }
 
-/* R213: what a picture shows at a column and a row of the viewport. */
+/* R213, R272: a channel's mean of scale x scale pixels. */
+static float mean_of(const float *pixel, size_t pitch, size_t scale)
+{
+    if (scale == 1)
+        return *pixel;
+    size_t half = scale / 2, right = 3 * half, below = half * pitch;
+    float a = mean_of(pixel, pitch, half), b = mean_of(pixel + right, pitch, half);
+    float c = mean_of(pixel + below, pitch, half), d = mean_of(pixel + below + right, pitch, half);
+    return ((a + b) + (c + d)) * 0.25f;
+}
+
+/* What a picture shows at a column and a row of the viewport. */
 static void find_light(const e3d_mirror *mirror, int32_t column, int32_t row, float out[3])
 {
     size_t scale = (size_t)mirror->scale, pitch = 3 * scale * (size_t)mirror->width;
-    const float *upper = mirror->radiance + scale * (size_t)row * pitch + 3 * scale * (size_t)column, *lower = upper + pitch;
+    const float *first = mirror->radiance + scale * (size_t)row * pitch + 3 * scale * (size_t)column;
     for (int c = 0; c < 3; c++)
-        out[c] = scale == 1 ? upper[c] : ((upper[c] + upper[3 + c]) + (lower[c] + lower[3 + c])) * 0.25f;
+        out[c] = mean_of(first + c, pitch, scale);
 }
 
 /* R210 */

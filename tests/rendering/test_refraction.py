@@ -5,6 +5,7 @@ import pytest
 from plain_picture import Renderer, render
 
 import engine3d as e3d
+from engine3d import linalg
 
 SIZE = 160, 120
 CLEAR = {"metallic": 0.0, "roughness": 0.0, "transmission": 1.0}
@@ -241,3 +242,40 @@ def test_edges_behind_glass_are_smooth(antialiasing):
     plain = shot(scene, antialiasing=antialiasing, samples=16, refraction=False)
     between = [((f.color[..., 1] > 90) & (f.color[..., 1] < 220)).sum() for f in (frame, plain)]
     assert between[0] > 0.7 * between[1] > 50
+
+
+HOW = [{}, {"samples": 4}, {"samples": 16}, {"samples": 4, "antialiasing": "msaa"}]
+
+
+def drawn(scene, lens, size, **how):
+    with Renderer(size, **how) as renderer:
+        return renderer.render(scene, (lens, e3d.look_at((0, 0, 5), (0, 0, 0)))).color
+
+
+def before_a_mirror(*things, width=8.0):
+    """A mirror in the plane z = 0, which shows unlit things that stand behind the camera."""
+    scene = e3d.Scene(background=(0, 0, 0), ambient=(0, 0, 0))
+    scene.add(e3d.DirectionalLight(direction=(0, 1, 0), intensity=1e-9))
+    scene.add(material(e3d.Mesh.from_polygons(square(width, 8), [(0, 1, 2, 3)]), **MIRROR))
+    for color, place in things:
+        pose = linalg.translation(place) @ linalg.rotation_y(np.pi)
+        scene.add(flat(color, (8, 8)), pose=pose)
+    return scene
+
+
+MIRROR = {"color": (0, 0, 0), "mirror": 1.0}
+
+
+@pytest.mark.parametrize("how", HOW, ids=["one", "ssaa 4", "ssaa 16", "msaa"])
+@pytest.mark.parametrize("background", [(0, 0, 0), None])
+def test_a_mirror_behind_bent_glass_shows_what_it_shows_beside(how, background):
+    red, blue = ((255, 0, 0), (4, 0, 6)), ((0, 0, 255), (-4, 0, 6))
+    scene = before_a_mirror(red, blue)
+    scene.background = background
+    lens = e3d.PerspectiveCamera(0.6)
+    beside = drawn(scene, lens, (64, 48), **how).astype(int)
+    scene.add(pane((1.6, 1.6), thickness=0.02, ior=1.3), translation=(0.4, 0, 1))
+    through = drawn(scene, lens, (64, 48), **how).astype(int)
+    same = [column for column in range(64) if abs(column - 32) > 2]  # but at the colours' edge
+    assert np.abs(through - beside)[24, same, :3].max() < 16
+    assert (through != beside).any()

@@ -466,7 +466,7 @@ static void add_mirrors(scene *s, const random_stream *stream)
         mirror->height = whole ? frame->height * axis : random_below(r, 40);
         mirror->left = whole ? 0 : random_below(r, 40) - 20;
         mirror->top = whole ? 0 : random_below(r, 40) - 20;
-        mirror->scale = 1 + random_below(r, 2);
+        mirror->scale = 1 << random_below(r, 3);
         mirror->radiance = random_texels(s, r, (size_t)(3 * mirror->width * mirror->height * mirror->scale * mirror->scale), 0.0f, 2.0f);
     }
     frame->mirrors = s->mirrors;

@@ -1,4 +1,4 @@
-/* mirrors: finds what the mirrors' pictures show at the samples of a batch, and lays it over their light (R210-R212). */
+/* mirrors: finds what the mirrors' pictures show at the samples of a batch, and lays it over their light (R210-R212, R272). */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -38,6 +38,24 @@ static const e3d_mirror *mirror_of(const e3d_frame *frame, const e3d_surfaces *s
     return NULL;
 }
 
+/* A channel's mean of 2 x 2 pixels. */
+static float mean_of_four(const float *pixel, size_t pitch)
+{
+    return ((pixel[0] + pixel[3]) + (pixel[pitch] + pixel[pitch + 3])) * 0.25f;
+}
+
+/* R213, R272 */
+static float mean_of(const float *pixel, size_t pitch, int32_t scale)
+{
+    const float *lower = pixel + 2 * pitch;
+    if (scale == 1)
+        return *pixel;
+    if (scale == 2)
+        return mean_of_four(pixel, pitch);
+    float upper = mean_of_four(pixel, pitch) + mean_of_four(pixel + 6, pitch);
+    return (upper + (mean_of_four(lower, pitch) + mean_of_four(lower + 6, pitch))) * 0.25f;
+}
+
 /* Finds what a mirror shows at a sample of the viewport; 0 where its picture doesn't reach. */
 static int find_light(const e3d_mirror *mirror, int32_t x, int32_t y, float out[3])
 {
@@ -45,9 +63,9 @@ static int find_light(const e3d_mirror *mirror, int32_t x, int32_t y, float out[
     if (column < 0 || row < 0 || column >= mirror->width || row >= mirror->height)
         return 0;
     size_t scale = (size_t)mirror->scale, pitch = 3 * scale * (size_t)mirror->width;
-    const float *upper = mirror->radiance + scale * (size_t)row * pitch + 3 * scale * (size_t)column, *lower = upper + pitch;
+    const float *first = mirror->radiance + scale * (size_t)row * pitch + 3 * scale * (size_t)column;
     for (int k = 0; k < 3; k++)
-        out[k] = scale == 1 ? upper[k] : ((upper[k] + upper[3 + k]) + (lower[k] + lower[3 + k])) * 0.25f;
+        out[k] = mean_of(first + k, pitch, mirror->scale);
     return 1;
 }
 

@@ -12,7 +12,7 @@ from ..options import RenderOptions, as_mirrored, lights_faces
 from .mirror_backgrounds import MirrorBackgrounds
 from .mirror_planes import MOST_MIRRORS, MirrorFinder, MirrorPlane
 from .mirror_views import Part, Reflection, part_of
-from .protocol import MirrorPainter, Pass, Picture, Shot, Tools
+from .protocol import MirrorPainter, Pass, Picture, Shot, ShownMirror, Tools
 
 _FINER = 2  # rows and columns in a pixel with multisampling, whose outputs have one sample
 
@@ -46,7 +46,7 @@ class Mirrors(Pass):
             self.tools.memory.add_mirror(painter.memory)
             numbers = (*plane.normal.tolist(), plane.offset)
             place = view.part.left, view.part.top, view.scale
-            picture.mirrors.append((numbers, plane.slack, *place, radiance))
+            picture.mirrors.append(ShownMirror(numbers, plane.slack, *place, radiance))
 
     def _views_of(self, picture: Picture) -> list[tuple[MirrorPlane, Reflection]]:
         """Return the mirrors that a picture shows, and the views of what they show.

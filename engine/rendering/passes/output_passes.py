@@ -59,7 +59,8 @@ def draw_outputs(
     has_light: bool = False,
 ) -> NativeStats:
     """Draw outputs in one call of the core; ``has_light``: with what earlier passes found."""
-    view = picture.view
+    view, axis = picture.view, one.tools.samples[0] // samples[0]
+    mirrors = [mirror.in_pixels(axis) for mirror in picture.mirrors] if has_light else []
     read = picture.arrays if has_light else {}
     return one.tools.native.render(
         one.tools.draw_list.native,
@@ -75,7 +76,7 @@ def draw_outputs(
         picture.shot.frozen,
         view.rays if has_light and picture.frame_options.has_backdrop else None,
         read.get("ambient_visibility"),
-        (picture.mirrors or None) if has_light else None,
+        mirrors or None,
         read.get("behind"),
         read.get("behind_depth"),
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,33 @@ class Shot(NamedTuple):
     headlight: Sequence[float]  # the direction to a light, for scenes without one
     frozen: NDArray[np.float64] | None = None  # the frustum to cull by, if another
     beyond: Environment | None = None  # takes the place of a plain background
+
+
+class ShownMirror(NamedTuple):
+    """A mirror and its picture, as the core takes them.
+
+    Attributes
+    ----------
+    plane : tuple of 4 float
+    slack : float
+    left, top : int
+        Where its picture lies in the frame's samples.
+    scale : int
+        Pixels of its picture that are side by side in a sample.
+    radiance : (rows, columns, 3) float32
+    """
+
+    plane: tuple[float, ...]
+    slack: float
+    left: int
+    top: int
+    scale: int
+    radiance: NDArray[np.float32]
+
+    def in_pixels(self, axis: int) -> ShownMirror:
+        """Return it for a frame of pixels instead of the samples along each axis of theirs."""
+        left, top = self.left // axis, self.top // axis
+        return self._replace(left=left, top=top, scale=self.scale * axis)
 
 
 class MirrorPainter(Protocol):
@@ -76,7 +103,7 @@ class Picture:
     # metric depths shown white and black in mode "depth"
     depth_range: tuple[float, float] = (0.0, 1.0)
     shadow_maps: tuple[int, int] = (0, 0)  # how many there are, and how many were drawn
-    mirrors: list[tuple[Any, ...]] = field(default_factory=list)  # as the core takes them
+    mirrors: list[ShownMirror] = field(default_factory=list)  # in the picture's samples
     drawn: NativeStats = field(init=False)
 
     @property

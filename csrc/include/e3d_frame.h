@@ -147,6 +147,10 @@ typedef struct e3d_frame {
     /* NULL, or what glass bends and blurs: all levels that e3d_find_behind found, and (height, width), the output depth, of the same
      * frame with opaque_only */
     const float *behind, *behind_depth;
+    /* Of a part of a picture, as what a mirror shows or a face of a lens: the size of the whole, and how many pixels of the part are
+     * side by side in one of it, above 0 (R273); zeros: the frame is whole */
+    int32_t whole_width, whole_height;
+    float fineness;
 } e3d_frame;
 
 /* These set a member by its name: one that options decide, or one that a scene's surroundings decide. They return 0 if no member

@@ -10,6 +10,7 @@
 
 #include "base/fpenv.h"
 #include "data/mirrors.h"
+#include "data/whole_picture.h"
 #include "data/shadow_maps/shadows.h"
 #include "reference/stages.h"
 
@@ -42,7 +43,8 @@ static e3d_status check_frame(const e3d_frame *frame, const e3d_targets *targets
         return E3D_INVALID_ARGUMENT;
     if (!size_is_valid(frame->line_width) || !size_is_valid(frame->point_size))
         return E3D_INVALID_ARGUMENT;
-    if (!e3d_shadows_are_valid(frame) || !e3d_mirrors_are_valid(frame) || (frame->behind && !frame->behind_depth))
+    if (!e3d_shadows_are_valid(frame) || !e3d_mirrors_are_valid(frame) || !e3d_whole_is_valid(frame) ||
+        (frame->behind && !frame->behind_depth))
         return E3D_INVALID_ARGUMENT;
     if ((unsigned)frame->line_shape > E3D_LINES_ROUND || (unsigned)frame->point_shape > E3D_POINTS_ROUND)
         return E3D_INVALID_ARGUMENT;

@@ -3,12 +3,13 @@
  * In: surfaces with the values of their textures; the frame's picture behind, with its levels. Out: shifts and blurs; the
  * colour, alpha and radiance that blending begins with.
  * Rules: R160 (which frames and surfaces), R163 (levels), R164 (shift), R165 (blur), R166 (sums, beginning), R167 (beyond the
- * picture).
+ * picture), R273 (parts of pictures).
  * Sources: KHR_materials_transmission, _volume and _dispersion; Khronos's sample viewer for the projected end of the ray and for
  * the blur. */
 #include <math.h>
 
 #include "data/behind_levels.h"
+#include "data/whole_picture.h"
 #include "reference/surface.h"
 
 /* The picture behind: its levels. */
@@ -75,11 +76,12 @@ static void find_shift(const e3d_frame *frame, const ref_surface *s, const float
 static uint32_t find_blur(const e3d_frame *frame, const ref_surface *s)
 {
     const e3d_physical *p = &s->piece->primitive.material->physical;
-    float most = ref_log2((float)frame->width) * ref_clamp(p->ior * 2.0f - 2.0f, 0.0f, 1.0f);
+    const e3d_whole whole = e3d_whole_of(frame);
+    float most = ref_log2((float)whole.width) * ref_clamp(p->ior * 2.0f - 2.0f, 0.0f, 1.0f);
     float level = ref_clamp(s->physical.roughness, 0.0f, 1.0f) * most;
     if (p->thickness != 0.0f && s->physical.scale == 0.0f)
         return 0;
-    return (uint32_t)ref_rint(ref_min(ref_exp2(level + level) - 1.0f, 0x1p20f) * 256.0f);
+    return (uint32_t)ref_rint(ref_min((ref_exp2(level + level) - 1.0f) * (whole.fineness * whole.fineness), 0x1p20f) * 256.0f);
 }
 
 /* ---- the fragments of a sample ---- */
@@ -186,6 +188,7 @@ static float look_up(const behind *b, float x, float y, float level, int channel
 /* The places that a sample shows (R166). */
 typedef struct bent_places {
     float x[3], y[3], level;
+    float blur; /* in pixels of the frame, squared */
 } bent_places;
 
 /* R166: whether something before the glass shows at a place. */
@@ -201,7 +204,8 @@ static int find_places(const e3d_frame *frame, const behind *b, const ref_bend *
 {
     float x = pixel_place(frame, at->x) - 0.5f, y = pixel_place(frame, at->y) - 0.5f;
     int some = sum->blur != 0;
-    out->level = ref_min(ref_log2(1.0f + ref_max((float)(int32_t)sum->blur, 0.0f) * 0x1p-8f) * 0.5f, (float)(b->count - 1));
+    out->blur = ref_max((float)(int32_t)sum->blur, 0.0f) * 0x1p-8f;
+    out->level = ref_min(ref_log2(1.0f + out->blur) * 0.5f, (float)(b->count - 1));
     for (int c = 0; c < 3; c++) {
         out->x[c] = x + (float)(int32_t)sum->shift[c][0] * 0x1p-8f;
         out->y[c] = y + (float)(int32_t)sum->shift[c][1] * 0x1p-8f;
@@ -220,19 +224,29 @@ static float beyond(const e3d_frame *frame, float x, float y)
     return ref_max(ref_max(0.0f - x, x - (float)(frame->width - 1)), ref_max(0.0f - y, y - (float)(frame->height - 1)));
 }
 
-/* R167: changes channel c of what shows at a place, or its share (c = 3), which is green's. */
-static float fade(const e3d_frame *frame, const behind *b, const bent_places *places, int c, float shown)
+/* R167: the level of an environment for a blur. */
+static float environment_level(const e3d_whole *whole, float blur)
 {
+    e3d_behind_level levels[E3D_BEHIND_LEVELS];
+    float last = (float)(e3d_behind_levels(whole->width, whole->height, levels) - 1);
+    float level = ref_min(ref_log2(1.0f + blur * (1.0f / (whole->fineness * whole->fineness))) * 0.5f, last);
+    return level * (8.0f / ref_max(last, 1.0f));
+}
+
+/* R167: changes channel c of what shows at a place, or its share (c = 3), which is green's. */
+static float fade(const e3d_frame *frame, const bent_places *places, int c, float shown)
+{
+    const e3d_whole whole = e3d_whole_of(frame);
     int at = c < 3 ? c : 1;
     float x = places->x[at], y = places->y[at], o = beyond(frame, x, y), direction[3], light[4];
     if (!frame->backdrop.light.environment || !(o > 0.0f))
         return shown;
     for (int k = 0; k < 3; k++)
         direction[k] = (frame->backdrop.ray[k] + (x + 0.5f) * frame->backdrop.across[k]) + (y + 0.5f) * frame->backdrop.down[k];
-    float level = places->level * (8.0f / ref_max((float)(b->count - 1), 1.0f));
+    float level = environment_level(&whole, places->blur);
     ref_environment(&frame->backdrop.light, direction, ref_max(frame->backdrop.level, level), light);
     light[3] = 1.0f;
-    return mix(shown, light[c], ref_min(o * (16.0f / (float)frame->height), 1.0f));
+    return mix(shown, light[c], ref_min(o * (16.0f / ((float)whole.height * whole.fineness)), 1.0f));
 }
 
 /* R166: red, green, blue, and the share; returns 0 if nothing is bent. */
@@ -243,7 +257,7 @@ static int find_behind(const e3d_frame *frame, const ref_bend *sum, const ref_pl
     if (is_nothing(sum) || !find_places(frame, &b, sum, at, &places))
         return 0;
     for (int c = 0; c < 4; c++)
-        out[c] = fade(frame, &b, &places, c, look_up(&b, places.x[c < 3 ? c : 1], places.y[c < 3 ? c : 1], places.level, c));
+        out[c] = fade(frame, &places, c, look_up(&b, places.x[c < 3 ? c : 1], places.y[c < 3 ? c : 1], places.level, c));
     return 1;
 }
 

@@ -395,6 +395,7 @@ cdef class NativeRenderer:
         list mirrors=None,
         const float[::1] behind=None,
         const float[:, ::1] behind_depth=None,
+        tuple whole=None,
     ) -> NativeStats:
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
@@ -403,7 +404,7 @@ cdef class NativeRenderer:
         partly written. Where an environment is the background, `rays` has three rows: e3d_backdrop's.
         `ambient_visibility`: (height, width), of each pixel. `mirrors`: of each its plane (four numbers), slack, left,
         top, scale, and radiance (rows, columns, 3), as e3d_mirror has them. `behind`: what `find_behind` found, with the
-        depths of the same picture.
+        depths of the same picture. `whole`: of a part of a picture, the width and height of that one, and the fineness.
         """
         cdef e3d_frame frame
         cdef e3d_mirror reflecting[E3D_MAX_MIRRORS]
@@ -414,6 +415,8 @@ cdef class NativeRenderer:
         frame.height = height
         frame.samples_axis = samples_axis
         frame.msaa_samples = msaa_samples
+        if whole is not None:
+            frame.whole_width, frame.whole_height, frame.fineness = whole
         set_view(&frame, clip_from_world, view_from_world, eye, number)
         set_frustum(&frame, frozen_clip_from_world)
         if rays is not None:

@@ -29,6 +29,8 @@ def frame_of(rng):
         "index": single(1.2, 1.5, 1.9),
         "is_body": int(rng.integers(0, 2)),
         "blur_share": np.float32(rng.uniform(0, 1)),
+        "blur_width": np.float32(rng.integers(1, 400)),
+        "blur_area": np.float32(rng.choice([1, 4, 6.1])),
     }
 
 
@@ -64,9 +66,10 @@ def shifted(batch, of, count, eye, scale, thickness, index):
 
 def blurred(of, scale, roughness):
     """R165."""
-    most = log2(of["width"]) * of["blur_share"]
+    most = log2(of["blur_width"]) * of["blur_share"]
     level = clamp(roughness, ZERO, ONE) * most
-    blur = round_even(least(exp2(level + level) - ONE, LIMIT) * np.float32(256))
+    area = (exp2(level + level) - ONE) * of["blur_area"]
+    blur = round_even(least(area, LIMIT) * np.float32(256))
     return np.where((scale == 0) & bool(of["is_body"]), 0, blur)
 
 
@@ -164,7 +167,8 @@ def looked_up(levels, x, y, at):
 def test_places_are_looked_up(kernels, size):
     rng = np.random.default_rng(size[0])
     texels, places = levels_of(rng, *size)
-    view = record("behind_view", texels=texels, count=len(places))
+    whole = {"whole_count": 7, "whole_share": np.float32(0.3)}
+    view = record("behind_view", texels=texels, count=len(places), **whole)
     levels = []
     for number, (width, height, first) in enumerate(places):
         view["level"][0, number] = width, height, first
@@ -183,6 +187,8 @@ def test_places_are_looked_up(kernels, size):
         blur = greatest(batch["blur"][0].astype(np.float32), ZERO) * np.float32(2.0**-8)
         wanted = least(log2(ONE + blur) * HALF, np.float32(len(places) - 1))
         assert np.array_equal(bits(batch["level"][0, :count]), bits(wanted[:count]))
+        of_whole = least(log2(ONE + blur * whole["whole_share"]) * HALF, np.float32(6))
+        assert np.array_equal(bits(batch["whole_level"][0, :count]), bits(of_whole[:count]))
         for n in range(count):
             for channel in range(4):
                 c = channel if dispersive and channel < 3 else 1

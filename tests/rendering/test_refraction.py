@@ -279,3 +279,32 @@ def test_a_mirror_behind_bent_glass_shows_what_it_shows_beside(how, background):
     same = [column for column in range(64) if abs(column - 32) > 2]  # but at the colours' edge
     assert np.abs(through - beside)[24, same, :3].max() < 16
     assert (through != beside).any()
+
+
+@pytest.mark.parametrize(
+    "lens",
+    [e3d.OrthographicCamera(1.0), e3d.IntrinsicsCamera(100, 100, 128, 32)],
+    ids=["orthographic", "pinhole"],
+)
+def test_the_blur_in_a_mirror_is_that_of_the_picture(lens):
+    """However large the mirror is; with samples its picture has more pixels."""
+    shown = []
+    for width, samples in ((8.0, 1), (4.0, 1), (4.0, 4), (4.0, 16)):
+        scene = before_a_mirror(((255, 255, 255), (4, 0, 7)), width=width)
+        scene.add(pane((8, 8), roughness=0.6), translation=(0, 0, 6))
+        shown.append(drawn(scene, lens, (256, 64), samples=samples)[32, 112:148:4, 0].astype(int))
+    assert np.ptp(shown[0]) > 80
+    for one in shown[1:]:
+        assert np.abs(one - shown[0]).max() <= 8
+
+
+@pytest.mark.filterwarnings("ignore:through a lens")
+def test_the_blur_through_a_lens_is_that_of_the_picture():
+    """The faces of a lens have sizes of their own."""
+    scene = stripes()
+    scene.add(pane((8, 8), roughness=0.6))
+    shown = []
+    for kind in (e3d.IntrinsicsCamera, e3d.FisheyeCamera):
+        color = drawn(scene, kind(40, 40, 128, 32), (256, 64))
+        shown.append(color[32, 108:148:4, 0].astype(int))
+    assert np.abs(shown[0] - shown[1]).max() <= 20

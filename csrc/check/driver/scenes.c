@@ -518,6 +518,16 @@ static void add_rare_parts(e3d_material *material, random_stream *r)
         p->thickness = hostile_float(r);
 }
 
+/* The frame may be a part of a picture. The stream goes on as if it were none. */
+static void add_whole(e3d_frame *frame, random_stream own)
+{
+    if (random_once_in(&own, 2))
+        return;
+    frame->whole_width = 1 + random_below(&own, 400);
+    frame->whole_height = 1 + random_below(&own, 400);
+    frame->fineness = random_once_in(&own, 2) ? 2.0f : random_float(&own, 0.3f, 5.0f);
+}
+
 /* A picture behind glass, in which some things are in front of it; its shares are those of surfaces that are tone mapped. */
 static void add_behind(scene *s, random_stream *r)
 {
@@ -528,6 +538,7 @@ static void add_behind(scene *s, random_stream *r)
         texels[i] = texels[i] < 1.0f ? texels[i] : 1.0f;
     frame->behind = texels;
     frame->behind_depth = random_texels(s, r, (size_t)frame->width * (size_t)frame->height, random_once_in(r, 2) ? -1.0f : 3.0f, 6.0f);
+    add_whole(frame, *r);
 }
 
 void scene_add_alpha(scene *s, random_stream *r)

@@ -5,6 +5,7 @@
 #include "base/fpenv.h"
 #include "base/pool.h"
 #include "data/mirrors.h"
+#include "data/whole_picture.h"
 #include "data/shadow_maps/shadows.h"
 #include "data/sample_patterns.h"
 #include "e3d.h"
@@ -41,7 +42,7 @@ static int frame_is_valid(const e3d_frame *f)
         return 0;
     if ((unsigned)f->line_shape > E3D_LINES_ROUND || (unsigned)f->point_shape > E3D_POINTS_ROUND)
         return 0;
-    if (f->behind && !f->behind_depth)
+    if ((f->behind && !f->behind_depth) || !e3d_whole_is_valid(f))
         return 0;
     if (f->draw_count < 0 || f->material_count < 0 || f->light_count < 0 ||
         (f->order && f->order_count < 0) || !e3d_shadows_are_valid(f) || !e3d_mirrors_are_valid(f))

@@ -3,6 +3,7 @@
 
 #include "base/grow.h"
 #include "data/behind_levels.h"
+#include "data/whole_picture.h"
 #include "data/sample_patterns.h"
 #include "data/tone_tables.h"
 #include "kernels/types/bending.h"
@@ -87,10 +88,14 @@ static int prepare_views(e3d_renderer *renderer, const e3d_frame *frame, const e
 /* Finds the levels of the picture behind glass, if there is one. */
 static void prepare_behind(const e3d_frame *frame, e3d_behind_view *out)
 {
+    const e3d_whole whole = e3d_whole_of(frame);
     out->texels = frame->behind;
     out->depth = frame->behind_depth;
-    if (frame->behind)
-        out->count = e3d_behind_levels(frame->width, frame->height, out->level);
+    if (!frame->behind)
+        return;
+    out->whole_count = e3d_behind_levels(whole.width, whole.height, out->level); /* its levels aren't kept */
+    out->count = e3d_behind_levels(frame->width, frame->height, out->level);
+    out->whole_share = 1.0f / (whole.fineness * whole.fineness);
 }
 
 e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_context *out)

@@ -1,7 +1,8 @@
-/* shade: finds how far the surfaces of a batch shift what is behind them, and how much they blur it (R164, R165). */
+/* shade: finds how far the surfaces of a batch shift what is behind them, and how much they blur it (R164, R165, R273). */
 #include <string.h>
 
 #include "e3d.h"
+#include "data/whole_picture.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/texture_slots.h"
@@ -39,6 +40,7 @@ static e3d_bending bending_of(const e3d_steps *s)
     const e3d_texture_memory *textures = &s->out->memory->textures;
     const e3d_tile *tile = &s->out->pixels->tile;
     const e3d_batch *batch = &s->out->memory->batch;
+    const e3d_whole whole = e3d_whole_of(frame);
     e3d_bending out = {.sample = batch->sample,
                        .width = (float)frame->width,
                        .height = (float)frame->height,
@@ -48,6 +50,8 @@ static e3d_bending bending_of(const e3d_steps *s)
                        .is_dispersive = p->dispersion != 0.0f,
                        .is_body = p->thickness != 0.0f,
                        .blur_share = unit(p->ior * 2.0f - 2.0f),
+                       .blur_width = (float)whole.width,
+                       .blur_area = whole.fineness * whole.fineness,
                        .thickness = e3d_varying_of(textures, E3D_SLOT_THICKNESS, 1, p->thickness),
                        .roughness = e3d_varying_of(textures, E3D_SLOT_METALLIC_ROUGHNESS, 1, p->roughness)};
     for (int k = 0; k < 3; k++) {

@@ -5,6 +5,7 @@
 
 #include "base/grow.h"
 #include "base/limits.h"
+#include "data/whole_picture.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "frame/pass/plan.h"
@@ -93,7 +94,8 @@ static void find_rays(const e3d_frame *frame, const e3d_behind_batch *batch, int
 static void fade(const e3d_frame *frame, const e3d_behind_lanes light, int channel, e3d_behind_batch *batch)
 {
     int at = channel < 3 ? channel : 1;
-    float scale = 16.0f / (float)frame->height, *shown = batch->light[channel];
+    const e3d_whole whole = e3d_whole_of(frame);
+    float scale = 16.0f / ((float)whole.height * whole.fineness), *shown = batch->light[channel];
     for (int i = 0; i < batch->count; i++) {
         float o = beyond(frame, batch->x[at][i], batch->y[at][i]), f = o * scale < 1.0f ? o * scale : 1.0f;
         if (o > 0.0f)
@@ -117,9 +119,9 @@ static void fade_all(const e3d_prepared *pass, e3d_behind_batch *batch)
     e3d_behind_lanes ray[3], level, light[3], all;
     if (!backdrop->light.environment || !any_beyond(frame, batch))
         return;
-    float last = (float)(pass->behind.count - 1), a_level = 8.0f / (last > 1.0f ? last : 1.0f);
+    float last = (float)(pass->behind.whole_count - 1), a_level = 8.0f / (last > 1.0f ? last : 1.0f);
     for (int i = 0; i < batch->count; i++) {
-        float wanted = batch->level[i] * a_level;
+        float wanted = batch->whole_level[i] * a_level;
         level[i] = backdrop->level > wanted ? backdrop->level : wanted;
         all[i] = 1.0f;
     }

@@ -83,13 +83,16 @@ static ALWAYS_INLINE behind_color behind_texel(const e3d_behind_view *view, floa
     return f == 0.0f ? fine : behind_mix(fine, behind_smooth(view, number + 1, x, y), f);
 }
 
-/* R166: finds the levels by the blurs. */
+/* R166, R167: finds the levels by the blurs. */
 static void behind_find_levels(const e3d_behind_view *view, e3d_behind_batch *batch)
 {
-    vf32 one = v_setf(1.0f), zero = v_setf(0.0f), most = v_setf((float)(view->count - 1));
+    vf32 one = v_setf(1.0f), half = v_setf(0.5f), zero = v_setf(0.0f);
+    vf32 most = v_setf((float)(view->count - 1)), whole_most = v_setf((float)(view->whole_count - 1));
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 blur = v_mul(v_max(v_float(v_loadi(batch->blur + i)), zero), v_setf(0x1p-8f));
-        v_storef(batch->level + i, v_min(v_mul(log2_poly(v_add(one, blur)), v_setf(0.5f)), most));
+        vf32 whole = v_mul(blur, v_setf(view->whole_share));
+        v_storef(batch->level + i, v_min(v_mul(log2_poly(v_add(one, blur)), half), most));
+        v_storef(batch->whole_level + i, v_min(v_mul(log2_poly(v_add(one, whole)), half), whole_most));
     }
 }
 

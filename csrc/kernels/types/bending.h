@@ -17,6 +17,8 @@ typedef struct e3d_behind_view {
     const float *texels, *depth;
     e3d_behind_level level[E3D_BEHIND_LEVELS];
     int count;
+    int whole_count;   /* levels that the whole picture would have (R273), */
+    float whole_share; /* and how many of its pixels lie on one of the frame's */
 } e3d_behind_view;
 
 /* What a pixel began with in an earlier plane: the sum of its bends, its colour and alpha. Without a sum it began with nothing. */
@@ -32,7 +34,7 @@ typedef float e3d_behind_lanes[E3D_BEHIND_BATCH + E3D_PAD];
 typedef struct e3d_behind_batch {
     int32_t sample[E3D_BEHIND_BATCH + E3D_PAD], blur[E3D_BEHIND_BATCH + E3D_PAD];
     e3d_behind_lanes x[3], y[3]; /* by channel, in pixels: the middle of the first one is 0 */
-    e3d_behind_lanes level;
+    e3d_behind_lanes level, whole_level; /* by the levels of the frame, and of the whole picture */
     e3d_behind_lanes light[4];   /* red, green, blue, and the share */
     int count, is_dispersive;
 } e3d_behind_batch;

@@ -135,6 +135,7 @@ typedef struct e3d_bending {
     int is_dispersive;            /* not 0: channels differ */
     int is_body;                  /* its thickness isn't 0 */
     float blur_share;             /* by the index of refraction */
+    float blur_width, blur_area;  /* pixels of the whole picture across, and the frame's pixels in each (R273) */
     e3d_varying thickness, roughness;
 } e3d_bending;
 

@@ -159,7 +159,8 @@ class LensPainter:
         )
         passes = painter.passes.plan(options, tuple(outputs), face.size)
         view = self._view(through.view, face, k)
-        shot = Shot(view, face.size, plan.rows, through.view.towards_viewer, through.frozen)
+        whole, towards = (*through.size, plan.scale), through.view.towards_viewer
+        shot = Shot(view, face.size, plan.rows, towards, through.frozen, whole=whole)
         picture = painter.look(scene, options, passes.listed, shot)
         picture.targets, picture.arrays = painter.passes.arrays(passes, outputs)
         for one in passes.passes:

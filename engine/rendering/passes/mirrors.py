@@ -107,7 +107,9 @@ class Mirrors(Pass):
     def _shot(self, picture: Picture, view: Reflection, fineness: int) -> Shot:
         beyond = self._backgrounds.beyond(picture.scene, picture.options)
         rows, headlight = picture.shot.rows * fineness, picture.shot.headlight
-        return Shot(view, view.size, rows, headlight, beyond=beyond)
+        width, height, finer = picture.shot.whole or (*picture.size, 1.0)
+        whole = width, height, finer * fineness
+        return Shot(view, view.size, rows, headlight, beyond=beyond, whole=whole)
 
     def _painter(self, number: int) -> MirrorPainter:
         if number == len(self._painters):

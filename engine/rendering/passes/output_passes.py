@@ -79,4 +79,5 @@ def draw_outputs(
         mirrors or None,
         read.get("behind"),
         read.get("behind_depth"),
+        picture.shot.whole,
     )

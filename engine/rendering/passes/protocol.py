@@ -35,6 +35,8 @@ class Shot(NamedTuple):
     headlight: Sequence[float]  # the direction to a light, for scenes without one
     frozen: NDArray[np.float64] | None = None  # the frustum to cull by, if another
     beyond: Environment | None = None  # takes the place of a plain background
+    # Of a part of a picture: the whole's size, and how many pixels are side by side in one of it.
+    whole: tuple[int, int, float] | None = None
 
 
 class ShownMirror(NamedTuple):

@@ -74,9 +74,10 @@ static ALWAYS_INLINE void bend_shift(const e3d_bending *b, const bend_lanes *at,
 static ALWAYS_INLINE vi32 bend_blur(const e3d_bending *b, const float *scale, int i)
 {
     vf32 one = v_setf(1.0f), zero = v_setf(0.0f);
-    vf32 most = v_mul(log2_poly(v_setf(b->width)), v_setf(b->blur_share));
+    vf32 most = v_mul(log2_poly(v_setf(b->blur_width)), v_setf(b->blur_share));
     vf32 level = v_mul(v_min(v_max(varying_at(&b->roughness, i), zero), one), most);
-    vf32 blur = v_mul(v_min(v_sub(exp2_poly(v_add(level, level)), one), v_setf(0x1p20f)), v_setf(256.0f));
+    vf32 area = v_mul(v_sub(exp2_poly(v_add(level, level)), one), v_setf(b->blur_area));
+    vf32 blur = v_mul(v_min(area, v_setf(0x1p20f)), v_setf(256.0f));
     vmask none = v_mand(v_eq(v_loadf(scale + i), zero), v_gti(v_seti(b->is_body), v_seti(0)));
     return v_seli(none, v_seti(0), v_rint(blur));
 }

@@ -79,7 +79,8 @@ def _side(session: Session, name: str) -> Any:
     if not os.path.splitext(name)[1]:
         return session.things.find(name, "compare")  # raises an error with a suggestion
     if os.path.splitext(name)[1].lower() in PICTURE_SUFFIXES:
-        pixels = load_texture(session.limits.path_to_read(name)).pixels
+        with session.limits.reading():
+            pixels = load_texture(session.limits.path_to_read(name)).pixels
         return np.ascontiguousarray(pixels)
     thing = session.opened(name)
     session.limits.check_triangles(thing.triangles)

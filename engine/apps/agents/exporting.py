@@ -45,7 +45,8 @@ def export(
         parts = visible_parts(session.things, objects, ())
         if not parts:
             raise InvalidArgumentError("export: there is no object to write")
-        _save_model(parts, target, suffix)
+        with session.limits.reading():  # images are copied from the files that they came from
+            _save_model(parts, target, suffix)
     return {"path": session.limits.shown(target), "bytes": os.path.getsize(target)}
 
 

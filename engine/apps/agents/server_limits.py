@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from types import FrameType
 
 from ...base.files.atomic_write import path_below
+from ...base.files.confined_reading import Confinement, confined_reading
 from ...base.numbers import shown
 from ...errors import Engine3DError, FileAccessError, InvalidArgumentError, printable
 from .usual_limits import MEGABYTE, MEGABYTES, SECONDS, SIDE, TRIANGLES
@@ -32,7 +33,7 @@ class Limits:
     seconds : float
         How long a call may take.
     most_bytes : int
-        Of a file that is read.
+        Of each file that is read, those that models name, too.
     most_triangles : int
         Of a scene.
     most_side : int
@@ -68,10 +69,17 @@ class Limits:
         self._refuse_outside(real, path)
         if not os.path.isfile(real):
             raise FileAccessError("no such file in the root folder", path)
-        if os.path.getsize(real) > self.most_bytes:
-            most = self.most_bytes // MEGABYTE
-            raise FileAccessError(f"larger than {most} MB, the limit (--max-megabytes)", path)
+        if reason := self._confinement.why_not_of_size(os.path.getsize(real)):
+            raise FileAccessError(reason, path)
         return real
+
+    def reading(self) -> contextlib.AbstractContextManager[None]:
+        """Let readers open only what is allowed within the block: files that models name, too."""
+        return confined_reading(self._confinement)
+
+    @property
+    def _confinement(self) -> Confinement:
+        return Confinement(self.root, self.most_bytes, "--max-megabytes")
 
     def path_to_write(self, path: str, overwrite: bool) -> str:
         """Return the path of a file to write in the root, in a folder that exists.
@@ -110,8 +118,8 @@ class Limits:
         return os.path.join(self.root, path)
 
     def _refuse_outside(self, real: str, path: str) -> None:
-        if real != self.root and not real.startswith(os.path.join(self.root, "")):
-            raise FileAccessError("outside of the root folder", path)
+        if reason := self._confinement.why_not_at(real):
+            raise FileAccessError(reason, path)
 
     def check_triangles(self, count: int) -> None:
         """Raise an error if a scene would have more triangles than allowed."""

@@ -74,7 +74,8 @@ class Session:
     def opened(self, path: str, name: str = "") -> Thing:
         """Return the object of a file, without adding it."""
         real = self.limits.path_to_read(path)
-        viewed = open_model(real, root=self.limits.root)
+        with self.limits.reading():
+            viewed = open_model(real, root=self.limits.root)
         stem = os.path.basename(path).partition(".")[0] or "model"
         named = self.checked_name(name) if name else unused(printable(stem), self.things)
         return thing_of(viewed, named, self.limits.shown(real))

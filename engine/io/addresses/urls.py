@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from ...base.files.confined_reading import why_no_address
 from ...base.optional_packages import needed
 from ...errors import Engine3DError, FileAccessError, FileFormatError, printable
 
@@ -25,7 +26,8 @@ def fetched(url: str) -> bytes:
     Raises
     ------
     FileAccessError
-        fsspec or a package for the protocol is not installed, or the file cannot be read.
+        fsspec or a package for the protocol is not installed, the file cannot be read, or reading
+        is confined to a folder.
     FileFormatError
         It is larger than `MAX_FETCHED`.
     """
@@ -68,6 +70,8 @@ def is_file_at(url: str) -> bool:
 
 def _system(url: str) -> tuple[Any, str]:
     """Return fsspec's file system for an address, and the path in it."""
+    if reason := why_no_address():
+        raise FileAccessError(reason, url)
     try:
         from fsspec.core import url_to_fs
     except ImportError:

@@ -18,6 +18,7 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import TypeVar
 
+from ...base.files.confined_reading import confined_reading, confinement
 from ...errors import FileFormatError
 from ..formats.images import PILLOW_FORMATS, images_of_one_model
 from .linked_files import found_files, tell_found
@@ -62,7 +63,7 @@ def in_limited_process(
         raise FileFormatError("needs a Python interpreter of its own, there is none", source.path)
     seconds = MAX_SECONDS_BASE + MAX_SECONDS_PER_MEGABYTE * (size >> 20)
     memory = MAX_MEMORY_BASE + MAX_MEMORY_RATIO * size
-    request = (read, _sent(source), split, memory, seconds)
+    request = (read, _sent(source), confinement(), split, memory, seconds)
     answer, status = _answer(pickle.dumps(sys.path) + pickle.dumps(request), seconds * _PATIENCE)
     if _is_late(status):
         raise FileFormatError(
@@ -122,12 +123,12 @@ def main() -> None:
     """Answer the request on standard input; the process runs this."""
     answer = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # libraries may print
-    read, source, split, memory, seconds = pickle.load(sys.stdin.buffer)
+    read, source, confined, split, memory, seconds = pickle.load(sys.stdin.buffer)
     paths: list[str] = []
     try:
         _limit(memory, seconds)
         _limit_pillow()
-        with found_files(paths.append), images_of_one_model():
+        with found_files(paths.append), images_of_one_model(), confined_reading(confined):
             result = read(source, split)
         written = pickle.dumps((paths, result), protocol=5)
     except MemoryError:

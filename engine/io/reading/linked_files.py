@@ -4,7 +4,8 @@ In: a name in a file (``mtllib``, ``map_Kd``, a URI), written on any system. Out
 regular file inside the folder, or the reason why there is none. Absolute names, ``..`` and symbolic
 links that lead out are refused, unless they stay in a root given by the caller; devices and FIFOs
 are never read. Even if the folder changes meanwhile, only regular files inside it at opening time
-are read. linked_names.py handles the spellings of names.
+are read. `confined_reading` narrows all that further. linked_names.py handles the spellings of
+names.
 """
 
 from __future__ import annotations
@@ -15,12 +16,12 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+from ...base.files.confined_reading import is_inside, why_not_at
 from ...base.numbers import shown as shown_value
-from ...base.system import FOLDER, NO_LINK
 from ...errors import FileAccessError, InvalidArgumentError
 from .linked_names import ends, is_absolute, match_key, spellings
-from .open_files import unreadable
-from .sources import READING, Source, opened_source, unpacked
+from .open_files import opened_below, unreadable
+from .sources import Source, opened_source, unpacked
 from .text import shown
 from .warning_list import WarningList
 
@@ -208,25 +209,15 @@ class LinkedFiles:
         return unpacked(opened_source(path, handle))
 
     def _opened(self, path: str) -> int:
-        """Open the file from its root folder, folder by folder, without following links."""
         real = self._real_path(path)
-        if not FOLDER:  # on systems that cannot open folders
-            return os.open(real, READING)
-        root = next(root for root in self._roots if _is_inside(real, root))
-        *folders, name = os.path.relpath(real, root).split(os.sep)
-        handle = os.open(root, FOLDER)
-        try:
-            for folder in folders:
-                outer, handle = handle, os.open(folder, FOLDER | NO_LINK, dir_fd=handle)
-                os.close(outer)
-            return os.open(name, READING | NO_LINK, dir_fd=handle)
-        finally:
-            os.close(handle)
+        return opened_below(next(root for root in self._roots if is_inside(real, root)), real)
 
     def _real_path(self, path: str) -> str:
         """Return the path without links, checked to be inside."""
         real = os.path.realpath(path)
-        if not any(_is_inside(real, root) for root in self._roots):
+        if reason := why_not_at(real):
+            raise LinkedFileError(reason)
+        if not any(is_inside(real, root) for root in self._roots):
             raise LinkedFileError(
                 "a path that leaves the model's folder is refused; root=FOLDER allows another"
             )
@@ -240,6 +231,8 @@ class LinkedFiles:
             raise LinkedFileError("an absolute path is refused")
         path = os.path.join(folder, name)
         try:
+            if os.path.isabs(name):
+                self._real_path(path)  # whether there are files outside is not told
             if not os.path.lexists(path):
                 path = self._as_on_disk(folder, name)
             mode = os.stat(self._real_path(path)).st_mode
@@ -270,10 +263,3 @@ class LinkedFiles:
                 entries = []
             self._listings[folder] = {match_key(entry): entry for entry in entries}
         return self._listings[folder]
-
-
-def _is_inside(path: str, root: str) -> bool:
-    try:
-        return os.path.commonpath([root, path]) == root
-    except ValueError:  # on another drive
-        return False

@@ -11,7 +11,11 @@ import io
 import os
 
 from ..._native.loaders import read_bytes
+from ...base.system import AT_ONCE, FOLDER, NO_LINK, READ
 from ...errors import FileAccessError
+
+#: Flags to open files: without O_NONBLOCK, opening a FIFO without a writer would hang.
+READING = READ | AT_ONCE
 
 
 class OpenFile:
@@ -91,6 +95,24 @@ class OpenFile:
 
     def close(self) -> None:
         self._file.close()
+
+
+def opened_below(folder: str, real: str) -> int:
+    """Open a file by its real path from a folder around it, without following links.
+
+    A link that has since taken the place of the file, or of a folder on its path, leads nowhere.
+    """
+    if not FOLDER:  # on systems that cannot open folders
+        return os.open(real, READING)
+    *folders, name = os.path.relpath(real, folder).split(os.sep)
+    handle = os.open(folder, FOLDER)
+    try:
+        for inner in folders:
+            outer, handle = handle, os.open(inner, FOLDER | NO_LINK, dir_fd=handle)
+            os.close(outer)
+        return os.open(name, READING | NO_LINK, dir_fd=handle)
+    finally:
+        os.close(handle)
 
 
 def unreadable(path: str, error: Exception) -> FileAccessError:

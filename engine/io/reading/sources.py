@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
-from ...base.system import AT_ONCE, READ
+from ...base.files.confined_reading import confinement, why_not_of_size
 from ...choices import ShapesOf
 from ...errors import FileAccessError, FileFormatError, InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE
 from ..addresses.url_names import file_part, folder_of, is_url
 from ..addresses.urls import fetched
-from .open_files import OpenFile, unreadable
+from .open_files import READING, OpenFile, opened_below, unreadable
 
 if TYPE_CHECKING:
     if sys.version_info >= (3, 11):
@@ -36,9 +36,6 @@ File: TypeAlias = "str | os.PathLike[str] | bytes | BinaryIO | Traversable"
 # Limits of unpacking: a base in bytes, and a multiple of the compressed size. Assignable.
 MAX_UNPACKED_BASE = 16 << 20
 MAX_UNPACKED_RATIO = 50
-
-# Flags to open files: without O_NONBLOCK, opening a FIFO without a writer would hang.
-READING = READ | AT_ONCE
 
 _GZIP = b"\x1f\x8b\x08"
 _GZIP_WINDOW = 16 + 15
@@ -205,7 +202,8 @@ def read_source(file: File) -> Source:
     Raises
     ------
     FileAccessError
-        The file does not exist, cannot be read, or is not a regular file.
+        The file does not exist, cannot be read, is not a regular file, or is none of those that
+        reading is confined to (`confined_reading`).
     FileFormatError
         The compressed file is damaged, or unpacks to an implausible size.
     InvalidArgumentError
@@ -236,7 +234,7 @@ def unpacked(source: Source) -> Source:
 
 def _read_path(path: str) -> Source:
     try:
-        handle = os.open(path, READING)
+        handle = _opened(path)
     except (OSError, ValueError) as error:
         raise unreadable(path, error) from error
     try:
@@ -247,24 +245,39 @@ def _read_path(path: str) -> Source:
         ) from error
 
 
+def _opened(path: str) -> int:
+    confined = confinement()
+    if confined is None:
+        return os.open(path, READING)
+    real = os.path.realpath(path)
+    if reason := confined.why_not_at(real):
+        raise FileAccessError(reason, path)
+    return opened_below(confined.folder, real)
+
+
 def opened_source(path: str, handle: int) -> Source:
     """Return the source of an open file, and take over the file.
 
     Raises
     ------
     FileAccessError
-        It is not a regular file.
+        It is not a regular file, or larger than reading is confined to.
     """
-    mode = os.fstat(handle).st_mode
-    if not stat.S_ISREG(mode):
+    if reason := _why_not(os.fstat(handle)):
         os.close(handle)
-        is_folder = stat.S_ISDIR(mode)
-        raise FileAccessError(
-            "cannot read: Is a directory" if is_folder else "not a regular file", path
-        )
+        raise FileAccessError(reason, path)
     file = os.fdopen(handle, "rb", buffering=0)
     content = OpenFile(path, file)
     return Source(path, content if content.size >= _LARGE else content.whole(), is_on_disk=True)
+
+
+def _why_not(state: os.stat_result) -> str:
+    """Return why an open file is not read; empty if it is."""
+    if stat.S_ISDIR(state.st_mode):
+        return "cannot read: Is a directory"
+    if not stat.S_ISREG(state.st_mode):
+        return "not a regular file"
+    return why_not_of_size(state.st_size)
 
 
 def _read_resource(file: Traversable) -> Source:

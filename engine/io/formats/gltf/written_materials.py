@@ -10,6 +10,7 @@ import os
 from typing import Any
 
 from ...._native.images import encode_png
+from ....base.files.confined_reading import why_not_at
 from ....model.materials.colors import linear_color
 from ....model.materials.linear_colors import LinearColor
 from ....model.materials.material import Material, is_implied, states_nothing
@@ -209,9 +210,9 @@ def _content(texture: Texture) -> tuple[bytes, str, str | None]:
 
 
 def _read(path: str) -> bytes | None:
-    """Return the file that a texture came from, if it still exists."""
+    """Return the file that a texture came from, if it still exists and may still be read."""
     try:
-        if not os.path.isfile(path):
+        if not os.path.isfile(path) or why_not_at(path):
             return None
         with open(path, "rb") as file:
             return file.read()

@@ -3,7 +3,8 @@
 In: a name: relative, ``file://``, ``package://NAME/…``, ``model://NAME/…`` or ``$(find NAME)/…``.
 Out: an open file, or the reason why there is none. Files are read from the robot's own package,
 from packages of ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH and GZ_SIM_RESOURCE_PATH, and from the
-caller's root; nothing else is read, whatever a name says.
+caller's root; nothing else is read, whatever a name says. Where reading is confined to a folder,
+nothing around that is even looked for.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import os
 import re
 from collections.abc import Iterator
 
+from ....base.files.confined_reading import why_not_at
 from ....base.files.folders_above import folders_above
 from ...addresses.linked_urls import linked_files
 from ...addresses.url_names import is_url
@@ -99,6 +101,8 @@ class RobotFiles:
             yield from _around(self._folder, name)
         listed = [part for path in PATHS for part in os.environ.get(path, "").split(os.pathsep)]
         for place in [*filter(None, listed), *filter(None, [self._source.root])]:
+            if why_not_at(place):
+                continue
             if os.path.basename(os.path.normpath(place)) == name:
                 yield place
             if os.path.isdir(inner := os.path.join(place, name)):
@@ -110,8 +114,8 @@ def package_of(folder: str) -> str:
     for above in _above(folder):
         if any(os.path.exists(os.path.join(above, mark)) for mark in _MARKS):
             return above
-    here = os.path.abspath(folder)
-    return os.path.dirname(here) if os.path.basename(here).lower() in _OF_ROBOTS else folder
+    around, name = os.path.split(os.path.abspath(folder))
+    return around if name.lower() in _OF_ROBOTS and not why_not_at(around) else folder
 
 
 def _around(folder: str, name: str) -> Iterator[str]:
@@ -128,6 +132,7 @@ def _around(folder: str, name: str) -> Iterator[str]:
 
 
 def _above(folder: str) -> list[str]:
-    """Return a folder and those around it, as absolute paths; without the top one."""
+    """Return a folder and those around it that may be read; absolute, without the top one."""
     nearest = itertools.islice(folders_above(os.path.abspath(folder)), _MOST_ABOVE)
-    return [above for above in nearest if os.path.dirname(above) != above]
+    inside = itertools.takewhile(lambda above: not why_not_at(above), nearest)
+    return [above for above in inside if os.path.dirname(above) != above]

@@ -4,6 +4,8 @@ import random
 
 import pytest
 
+import engine3d as e3d
+
 VALUES = [
     *(None, True, 0, -1, 1e308, 2**70, float("inf"), [], {}, [[]], [1, 2], [1, 2, 3], [40, 30]),
     *("", ".", "iso", "three", "three/box", "x" * 5000, "a\nb", "50%", "png", "out.stl", "#12"),
@@ -34,3 +36,25 @@ def test_any_call_ends_well(agent, seed):
                 assert len(said) < 600, (tool.name, given, said)
 
     agent.ask(calls)
+
+
+@pytest.mark.parametrize("where", ["plug-in", "library"])
+def test_nothing_ends_the_server(agent, monkeypatch, where):
+    """A reader of another package may exit, and so may a library that engine3d uses."""
+
+    def ended(*_, **__):
+        raise SystemExit(1)
+
+    (agent.root / "a.zzz").write_text("x")
+    if where == "plug-in":
+        e3d.plugins.register("readers", "zzz", ended)
+    else:
+        monkeypatch.setattr("engine3d.apps.agents.session.open_model", ended)
+    try:
+        said = agent.error("load", path="a.zzz")
+    finally:
+        if where == "plug-in":
+            e3d.plugins.unregister("readers", "zzz")
+    assert "SystemExit: 1" in said
+    assert ("'zzz' of engine3d.readers" in said) == (where == "plug-in")
+    assert agent.told("scene")["objects"] == []

@@ -2,13 +2,16 @@
 
 import json
 
+import numpy as np
 import pytest
 
 import engine3d as e3d
 from engine3d.apps.cli import main
-from engine3d.apps.datasets.kinds import writer_class
+from engine3d.apps.datasets.kinds import made_writer, writer_class
+from engine3d.apps.scenes import load_demo
 from engine3d.base.plugins.groups import GROUPS
 from engine3d.base.plugins.registry import find_plugin
+from engine3d.datasets import write_dataset
 from engine3d.errors import PluginError
 
 READER = """
@@ -68,8 +71,12 @@ def test_what_a_reader_raises_on_purpose_passes(package, vox, tmp_path):
         e3d.load_mesh(vox)
     assert str(told.value) == f"{vox}:3: bad"
     package("def read(file): open('/nowhere/at/all')", readers={"vex": "{0}:read"})
-    with pytest.raises(e3d.FileAccessError, match="/nowhere/at/all: cannot read: No such file"):
+    said = r"^/nowhere/at/all: demo-1 1\.2 \(.*\): cannot read: No such file"
+    with pytest.raises(e3d.FileAccessError, match=said):
         e3d.load_mesh(vox.rename(tmp_path / "a.vex"))
+    package("def read(file): file.open('none.png')", readers={"vix": "{0}:read"})
+    with pytest.raises(e3d.FileAccessError, match=r"^none\.png: demo-2 1\.2 \(.*\): not found"):
+        e3d.load_mesh((tmp_path / "a.vex").rename(tmp_path / "a.vix"))
 
 
 def test_the_original_is_the_cause(package, vox):
@@ -300,3 +307,103 @@ def test_damaged_metadata_of_a_package_is_told_and_passed_over(package, vox):
     discovery._found.cache_clear()
     with pytest.warns(e3d.Engine3DWarning, match="metadata cannot be read"):
         assert len(e3d.load_mesh(vox).faces) == 12
+
+
+WRITER = """
+from engine3d.datasets import DatasetWriter as Base
+
+class value(Base):
+    kind = "demo"
+
+    def describe(self, sample): return {{}}, None
+
+    def {method}(self, *args): {code}
+"""
+#: How each kind of plug-in is used, with code that runs then.
+USES = {
+    "readers": ("def value(file): {code}", lambda path: e3d.load(path / "a.demo")),
+    "writers": ("def value(scene, file): {code}", lambda path: e3d.save_mesh(BOX, path / "b.demo")),
+    "scenes": ("def value(): {code}", lambda path: load_demo("demo")),
+    **{
+        f"datasets-{method}": (WRITER.replace("{method}", method), use)
+        for method, use in {
+            "__init__": lambda path: made_writer("demo"),
+            "describe": lambda path: write_dataset(path / "set", made_writer("demo"), [sample()]),
+            "finish": lambda path: write_dataset(path / "set", made_writer("demo"), []),
+        }.items()
+    },
+}
+BOX = e3d.box()
+
+
+def sample():
+    scene = e3d.Scene()
+    scene.add(BOX)
+    with e3d.Renderer((8, 6)) as renderer:
+        frame = renderer.render(scene)
+    return e3d.datasets.Sample("a", 0, frame, scene, e3d.PerspectiveCamera(), np.eye(4), renderer)
+
+
+@pytest.mark.parametrize("kind", USES)
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        ("import sys; sys.exit(1)", "raised SystemExit: 1"),
+        ("raise SystemExit('damaged')", "raised SystemExit: damaged"),
+        ("raise OSError(28, 'No space left on device')", r"raised OSError: .*No space left"),
+        ("open('/nowhere/at/all')", "raised FileNotFoundError: .*No such file"),
+        ("raise MemoryError", "needs more memory than there is"),
+        ("1 / 0", "raised ZeroDivisionError"),
+    ],
+)
+def test_no_plugin_ends_the_program_or_hides_behind_the_system(package, tmp_path, kind, code, said):
+    """Whatever a plug-in raises, its user gets an error of engine3d that names it."""
+    text, use = USES[kind]
+    package(text.format(code=code), **{kind.partition("-")[0]: {"demo": "{0}:value"}})
+    (tmp_path / "a.demo").write_text("x")
+    wanted = PluginError
+    if kind == "readers":
+        is_of_system = code.startswith(("open", "raise OSError"))
+        wanted = e3d.FileAccessError if is_of_system else e3d.FileFormatError
+        said = said.rpartition(".*")[2] if is_of_system else said
+    with pytest.raises(wanted, match=rf"demo-0 1\.2 \(entry point 'demo' of .*{said}"):
+        use(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("code", "status", "said"),
+    [
+        ("raise SystemExit", 0, ""),
+        ("raise SystemExit(7)", 7, ""),
+        ("raise SystemExit(-1)", 255, ""),
+        ("raise SystemExit('it is broken')", 1, "it is broken\n"),
+    ],
+)
+def test_a_command_may_exit_with_a_status(package, capsys, code, status, said):
+    package(f"def run(args): {code}\ndef add(parser): return run", commands={"demo": "{0}:add"})
+    assert main(["demo"]) == status
+    assert capsys.readouterr().err == said
+
+
+def test_a_command_that_exits_as_it_adds_options_breaks_nothing_else(package, tmp_path, capsys):
+    package("def add(parser): raise SystemExit(9)", commands={"demo": "{0}:add"})
+    assert main(["--help"]) == 0
+    assert main(["demo"]) == 1
+    assert "commands) raised SystemExit: 9" in capsys.readouterr().err
+
+
+def test_a_command_names_itself_in_errors_of_the_system(package, capsys):
+    code = "def run(args): open('/nowhere/at/all')\ndef add(parser): return run"
+    package(code, commands={"demo": "{0}:add"})
+    assert main(["demo"]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("engine3d: error: demo-0 1.2 (entry point 'demo' of engine3d.commands)")
+    assert "FileNotFoundError" in said
+
+
+def test_nobody_reads_what_a_command_prints(package, capfd):
+    """A closed pipe is no fault of the command."""
+    code = "def run(args): raise BrokenPipeError\ndef add(parser): return run"
+    package(code, commands={"demo": "{0}:add"})
+    assert main(["demo"]) == 1
+    assert capfd.readouterr().err == ""

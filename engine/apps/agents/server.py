@@ -134,7 +134,7 @@ def _result(call: Callable[[], Answer], limits: Limits) -> CallToolResult:
         return _failed("out of memory")
     except OSError as error:
         return _failed(printable(error.strerror or str(error)))
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # no library ends the server
         traceback.print_exc()  # on standard error, for a report of the fault
         return _failed(f"a fault of engine3d: {type(error).__name__}: {printable(str(error))}")
     record = dict(answer.record)

@@ -28,7 +28,7 @@ from ...rendering.options import RenderOptions
 from ...stage.renderer import Renderer
 from ...version import __version__
 from ..datasets.generator import Generator
-from ..datasets.kinds import plugin_of
+from ..datasets.kinds import named_in_errors
 from ..datasets.samples import Move, Sample
 from ..datasets.writer import Content, DatasetWriter
 from .cameras import camera_of
@@ -191,7 +191,8 @@ class Drawer:
         )
         files, note = _described(sample, writer)
         for end, data in said.files.items():
-            path = writer.beside(sample, end)
+            with named_in_errors(writer):
+                path = writer.beside(sample, end)
             if folded(path) in map(folded, files):
                 raise InvalidArgumentError(f"{path} is written twice: it is an output")
             files[path] = data
@@ -256,14 +257,11 @@ class Drawer:
 
 def _described(sample: Sample, writer: DatasetWriter) -> tuple[dict[str, Content], Any]:
     """Return what a writer makes of a sample; errors name the plug-in if it is one's."""
-    plugin = plugin_of(writer)
-    if plugin is None:
+    with named_in_errors(writer) as plugin:
+        if plugin is not None:
+            plugin.use()
         files, note = writer.describe(sample)
-    else:
-        plugin.use()
-        with plugin.named_in_errors():
-            files, note = writer.describe(sample)
-    return dict(files), note
+        return dict(files), note
 
 
 def _told(error: Exception) -> str:

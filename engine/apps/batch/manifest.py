@@ -17,7 +17,7 @@ from ...base.files.portable_names import common_name, folded
 from ...errors import InvalidArgumentError
 from ...io.reading.json_values import JsonValue, parsed_json
 from ...io.reading.sources import read_source
-from ..datasets.kinds import KINDS, writer_class
+from ..datasets.kinds import KINDS, made_writer, writer_class
 from ..datasets.writer import DatasetWriter
 from .cameras import calibrated_size
 from .matrix import Value, combinations, name_from, value_of
@@ -107,7 +107,7 @@ def _writer(entry: JsonValue) -> DatasetWriter:
     _check_keys(entry, {"writer", *known})
     given = {key: one.value for key, one in entry.members().items() if key != "writer"}
     try:
-        return make(**given)
+        return made_writer(kind.value, **given)
     except (InvalidArgumentError, TypeError) as error:
         text = str(error)  # it begins with the faulty parameter
         key = next((key for key in given if text.startswith(f"{key} ")), None)

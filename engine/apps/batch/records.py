@@ -17,6 +17,7 @@ from ...base.files.atomic_write import AtomicFiles
 from ...base.files.making_folders import make_folder_of
 from ...base.plugins.registry import are_here
 from ...errors import FileAccessError, FileFormatError, warn
+from ..datasets.kinds import named_in_errors
 from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
 from .file_digests import Inputs, are_as_before
 from .task import Task
@@ -99,16 +100,21 @@ def note_of(task: Task, record: dict[str, Any]) -> Note:
     return Note(task.name, task.index, list(record["files"]), record["said"])
 
 
+def _is_stored(out: str, note: Note, digests: dict[str, str], writer: DatasetWriter) -> bool:
+    """Return whether a picture's files exist as they were written."""
+    for path, digest in digests.items():
+        data = writer.stored(out, note, path)
+        if data is None or hashlib.sha256(data).hexdigest() != digest:
+            return False
+    return writer.is_whole(out, note)
+
+
 def is_done(out: str, task: Task, writer: DatasetWriter) -> bool:
     """Return whether a picture exists, made from the current inputs."""
     record = read_record(out, task, writer, tell=True)
     if record is None or record["key"] != task.key(writer):
         return False
-    note = note_of(task, record)
-    for path, digest in record["files"].items():
-        data = writer.stored(out, note, path)
-        if data is None or hashlib.sha256(data).hexdigest() != digest:
+    with named_in_errors(writer):
+        if not _is_stored(out, note_of(task, record), record["files"], writer):
             return False
-    if not (writer.is_whole(out, note) and are_here(record.get("plugins", ()))):
-        return False
-    return are_as_before(task.folder, record["inputs"])
+    return are_here(record.get("plugins", ())) and are_as_before(task.folder, record["inputs"])

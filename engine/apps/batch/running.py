@@ -33,6 +33,7 @@ from ...choices import Backend
 from ...errors import FileAccessError, InvalidArgumentError, warn
 from ...rendering.backend_selection import resolve_backend
 from ...version import __version__
+from ..datasets.kinds import named_in_errors
 from ..datasets.writer import DatasetWriter, Note
 from .drawing import How, Outcome, draw_chunk, writer_of
 from .executors import Engine, engine_for
@@ -288,7 +289,8 @@ def _finish(tasks: Sequence[Task], how: How) -> tuple[str, list[str]]:
     """Write the files of the whole set; return the hash of everything, and who took part."""
     notes, whole = _Notes(tasks, how), []
     if how.writer is not None:
-        whole = list(how.writer.finish(how.out, notes))
+        with named_in_errors(how.writer):
+            whole = list(how.writer.finish(how.out, notes))
     hashes = {p: _digest(f"{how.out}/{p}") for p in whole}
     plugins: set[str] = set()
     for _, record in notes.records():

@@ -26,6 +26,7 @@ from ...rendering.frame import OUTPUTS
 from ...rendering.options import RenderOptions
 from ...stage.look import LOOK_CHOICES
 from ...version import __version__
+from ..datasets.kinds import named_in_errors
 from ..datasets.measured import checked_outputs
 from ..datasets.writer import DatasetWriter
 from .cameras import check_camera
@@ -137,7 +138,9 @@ class Task:
     def key(self, writer: DatasetWriter) -> str:
         """Return a hash of the task, the writer and engine3d's version."""
         told = {one.name: getattr(self, one.name) for one in fields(self) if one.name != "folder"}
-        said = {"task": told, "writer": writer.said(), "engine3d": __version__}
+        with named_in_errors(writer):
+            settings = writer.said()
+        said = {"task": told, "writer": settings, "engine3d": __version__}
         text = json.dumps(said, sort_keys=True, separators=(",", ":"))
         return hashlib.blake2b(text.encode("utf-8"), digest_size=20).hexdigest()
 

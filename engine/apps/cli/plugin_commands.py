@@ -1,13 +1,15 @@
 """Commands that packages add: rows beside those that ship.
 
 In: plug-ins of the group ``engine3d.commands``; their values are ``add(parser) -> run``, where
-``run(args)`` returns an exit status. Nothing is imported before a plug-in's command is asked for.
+``run(args)`` returns an exit status, or exits with one. Nothing is imported before a plug-in's
+command is asked for.
 """
 
 from __future__ import annotations
 
 import argparse
 import functools
+import sys
 from collections.abc import Callable
 
 from ...base.plugins.plugin import Plugin, fault
@@ -63,10 +65,21 @@ def _added(plugin: Plugin, parser: argparse.ArgumentParser) -> Callable:
 
 def _run(plugin: Plugin, run: Callable, args: argparse.Namespace) -> int:
     """Run the command of a plug-in; return the exit status."""
-    with plugin.named_in_errors():
-        status = run(args)
+    with plugin.named_in_errors(BrokenPipeError):  # `main` ends quietly if nobody reads on
+        status = _status(run, args)
     if status is not None and type(status) is not int:
         raise fault(plugin, f"returned {type(status).__name__}, not an exit status")
     if status is not None and not 0 <= status <= _MOST:
         raise fault(plugin, f"returned {status}, but exit statuses are 0..{_MOST}")
     return status or 0
+
+
+def _status(run: Callable, args: argparse.Namespace) -> object:
+    """Return what a command returns, or the status with which it exits, as the system has it."""
+    try:
+        return run(args)
+    except SystemExit as stop:
+        if stop.code is None or isinstance(stop.code, int):
+            return int(stop.code or 0) & _MOST
+        print(stop.code, file=sys.stderr)
+        return 1

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Iterator
+from typing import Any
 
 from ...base.numbers import shown
 from ...base.plugins.open_choices import OpenChoices
@@ -44,6 +46,30 @@ def writer_class(kind: str) -> type[DatasetWriter]:
     if getattr(writer, "kind", None) != kind:
         raise fault(plugin, f"has kind = {shown(getattr(writer, 'kind', None))}")
     return writer
+
+
+def made_writer(kind: str, /, **options: Any) -> DatasetWriter:
+    """Return a new writer of a kind, one of `KINDS`.
+
+    Raises
+    ------
+    InvalidArgumentError, TypeError
+        Of the writer, about its options.
+    PluginError
+        It is a plug-in's, which is broken.
+    """
+    make = writer_class(kind)
+    plugin = None if kind in _WRITERS else find_plugin("datasets", kind)
+    with contextlib.nullcontext() if plugin is None else plugin.named_in_errors(TypeError):
+        return make(**options)
+
+
+@contextlib.contextmanager
+def named_in_errors(writer: DatasetWriter) -> Iterator[Plugin | None]:
+    """Name the plug-in whose writer this is, if it is one's, in errors within the block."""
+    plugin = plugin_of(writer)
+    with contextlib.nullcontext() if plugin is None else plugin.named_in_errors():
+        yield plugin
 
 
 def plugin_of(writer: DatasetWriter) -> Plugin | None:

@@ -14,6 +14,7 @@ from ...base.files.making_folders import make_folder_of
 from ...base.files.portable_names import common_name, folded
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError
+from .kinds import named_in_errors
 from .samples import Sample
 from .writer import Content, DatasetWriter, Note, contents, own_files
 
@@ -48,12 +49,14 @@ def write_dataset(
             raise InvalidArgumentError(f"samples must be Samples, not {shown(sample)}")
         if notes and sample.index <= notes[-1].index:
             raise InvalidArgumentError(f"samples come in the order of their index: {sample.index}")
-        files, said = writer.describe(sample)
+        with named_in_errors(writer):
+            files, said = writer.describe(sample)
         _check_distinct(own_files(files), names)
         save_files(root, files)
         notes.append(Note(sample.name, sample.index, list(own_files(files)), said))
     written = [path for note in notes for path in note.files]
-    return written + list(writer.finish(root, notes))
+    with named_in_errors(writer):
+        return written + list(writer.finish(root, notes))
 
 
 def _check_distinct(paths: Iterable[str], names: dict[str, str]) -> None:

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from ...errors import Engine3DError, PluginError, printable
+from ..memory import NEEDS_MORE, is_lack_of_memory
 from .groups import API, GROUPS
 from .participants import took_part
 
@@ -96,17 +97,20 @@ class Plugin:
         return value
 
     @contextmanager
-    def named_in_errors(self) -> Iterator[None]:
-        """Name the plug-in in unforeseen errors within the block.
+    def named_in_errors(self, *passing: type[BaseException]) -> Iterator[None]:
+        """Name the plug-in in errors within the block.
 
-        Errors of engine3d and of the system pass: plug-ins raise them on purpose.
+        Errors of engine3d pass, which plug-ins raise on purpose, and those that the caller handles.
+        `SystemExit` does not: no plug-in ends the program that uses it.
         """
         try:
             yield
-        except (Engine3DError, OSError, MemoryError):
+        except (Engine3DError, *passing):
             raise
-        except Exception as error:
-            raise fault(self, f"raised {told(error)}{_place_of(error)}") from error
+        except (Exception, SystemExit) as error:
+            lacks_memory = is_lack_of_memory(error)
+            said = NEEDS_MORE if lacks_memory else f"raised {told(error)}{_place_of(error)}"
+            raise fault(self, said) from error
 
     def _check(self, value: Any) -> None:
         """Raise unless a value is what the group takes, by a contract that is known."""

@@ -2,7 +2,7 @@
 
 In: a plug-in of the group ``engine3d.readers``, and a `Source`. Out: a `Document` of the mesh or
 scene that it returns, checked as that of any reader. Errors name the file, and the plug-in unless
-it found the file at fault itself.
+it said itself what is wrong with the file.
 """
 
 from __future__ import annotations
@@ -74,16 +74,14 @@ def read_with_plugin(plugin: Plugin, source: Source, split: bool = False) -> Doc
 def _made(plugin: Plugin, source: Source, file: PluginFile) -> Mesh | Scene:
     """Return what a reader returns; all its errors are about the file."""
     try:
-        with plugin.named_in_errors():
+        with plugin.named_in_errors(OSError):
             made = plugin.use()(file)
     except FileFormatError as error:
         if error.path is not None:
             raise
         raise FileFormatError(error.message, source.path, error.line) from error
-    except FileAccessError:
-        raise
     except OSError as error:
-        raise unreadable(str(error.filename or source.path), error) from error
+        raise _inaccessible(plugin, source, error) from error
     except PluginError as error:
         raise FileFormatError(str(error), source.path) from (error.__cause__ or error)
     except Engine3DError as error:
@@ -95,6 +93,13 @@ def _made(plugin: Plugin, source: Source, file: PluginFile) -> Mesh | Scene:
             source.path,
         )
     return made
+
+
+def _inaccessible(plugin: Plugin, source: Source, error: OSError) -> FileAccessError:
+    """Return the error to raise where a reader cannot read a file, its own or another."""
+    if not isinstance(error, FileAccessError):
+        error = unreadable(str(error.filename or source.path), error)
+    return FileAccessError(f"{plugin}: {error.message}", error.path or source.path)
 
 
 def _parts(scene: Scene) -> list[PosedPart]:

@@ -1,7 +1,7 @@
 """Writes files with the writers of other packages.
 
 In: a plug-in of the group ``engine3d.writers``, and a scene. Out: one file, whole or not at all,
-and a line for each loss. Unforeseen errors name the plug-in.
+and a line for each loss. Errors name the plug-in.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from typing import Any
 from ...base import linalg
 from ...base.files.atomic_write import atomic_write
 from ...base.validation import choose
-from ...errors import InvalidArgumentError
+from ...errors import InvalidArgumentError, warn
 from ...io.formats.gltf.gltf_writer import EXTENSIONS as SCENE_EXTENSIONS
 from ...io.output.animation_files import PICTURE_SUFFIXES
 from ...io.writers import formats, save_mesh
@@ -20,6 +20,7 @@ from ...model.scene.instances import InstancedMesh, instance_matrices
 from ...model.scene.scene import Scene
 from .pictures import visible_parts
 from .session import Session
+from .shown_scene import lights_of
 from .things import Part, Thing
 
 #: Of pictures only PNG: it keeps every pixel.
@@ -46,7 +47,7 @@ def export(
         if not parts:
             raise InvalidArgumentError("export: there is no object to write")
         with session.limits.reading():  # images are copied from the files that they came from
-            _save_model(parts, target, suffix)
+            _save_model(parts, session.things.lamps(objects), target, suffix)
     return {"path": session.limits.shown(target), "bytes": os.path.getsize(target)}
 
 
@@ -59,12 +60,16 @@ def _save_picture(session: Session, target: str, suffix: str) -> None:
         file.write(session.last.encode())
 
 
-def _save_model(parts: list[tuple[Thing, Part]], target: str, suffix: str) -> None:
+def _save_model(
+    parts: list[tuple[Thing, Part]], lamps: list[Thing], target: str, suffix: str
+) -> None:
     if suffix in SCENE_EXTENSIONS or suffix == SCENE_EXTENSION:
         if not target.lower().endswith(suffix):
             raise InvalidArgumentError(f"export: the path of a {suffix} file ends in {suffix}")
-        save_scene(_scene(parts), target)
+        save_scene(_scene(parts, lamps), target)
         return
+    if lights := lights_of(parts, lamps):
+        warn(f"{target}: {suffix} files hold no lights: {len(lights)} left out")
     writer = find_writer(target, suffix)
     meshes, names = [], []
     for thing, part in parts:
@@ -77,10 +82,12 @@ def _save_model(parts: list[tuple[Thing, Part]], target: str, suffix: str) -> No
     save_mesh(Mesh.concatenate(meshes, name=names[0]), target, format=writer.name)
 
 
-def _scene(parts: list[tuple[Thing, Part]]) -> Scene:
+def _scene(parts: list[tuple[Thing, Part]], lamps: list[Thing]) -> Scene:
     scene = Scene()
     for thing, part in parts:
         scene.add(part.drawn, name=thing.label(part), pose=part.pose)
+    for light, pose in lights_of(parts, lamps):
+        scene.add(light, pose=pose)
     return scene
 
 

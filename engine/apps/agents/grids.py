@@ -74,7 +74,7 @@ def draw_views(
     ------
     InvalidArgumentError
     """
-    shown = studio.scene_of(visible_parts(things, objects, ()))
+    shown = studio.scene_of(visible_parts(things, objects, ()), things.lamps(objects))
     sheet = contact_sheet(
         shown.viewed,
         views=names,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import time
 from collections import OrderedDict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -168,7 +169,8 @@ class Studio:
         size = self.checked_size(request.size)
         choice = view_choice(request.view, things)
         look, options = LOOKS[choose(request.look, LOOKS, "look")]
-        shown = self.scene_of(visible_parts(things, request.objects, request.hide))
+        parts = visible_parts(things, request.objects, request.hide)
+        shown = self.scene_of(parts, things.lamps(request.objects, request.hide))
         cut = None
         if request.section is not None:
             if not shown.owners:
@@ -206,12 +208,12 @@ class Studio:
         pose[:3, 3] -= shown.origin
         return self._frame(renderer, shown, (camera, pose), {}).color
 
-    def scene_of(self, parts: list[tuple[Thing, Part]]) -> Shown:
-        """Return the scene of some parts: the same one as long as they are the same."""
-        key = tuple(id(part) for _, part in parts)
-        found = self._scenes.get(key)  # holds the parts, so that no other one gets their identity
+    def scene_of(self, parts: list[tuple[Thing, Part]], lamps: Sequence[Thing] = ()) -> Shown:
+        """Return the scene of some parts: the same one as long as they and the lamps are."""
+        key = tuple(id(part) for _, part in parts), tuple(map(id, lamps))
+        found = self._scenes.get(key)  # holds them all, so that no other one gets their identity
         if found is None:
-            found = self._scenes[key] = shown_scene(parts)
+            found = self._scenes[key] = shown_scene(parts, lamps)
         self._scenes.move_to_end(key)
         while len(self._scenes) > _KEPT_SCENES:
             self._scenes.popitem(last=False)
@@ -266,10 +268,10 @@ class Studio:
 def visible_parts(things: Things, objects: Any, hide: Any) -> list[tuple[Thing, Part]]:
     """Return the parts that a picture shows: some or all objects, without those hidden."""
     if objects:
-        wanted = things.find(objects)
+        wanted = things.find(objects, with_lamps=True)
     else:
         wanted = [pair for pair in things.all_parts() if pair[1].visible]
-    hidden = {id(part) for _, part in things.find(hide or (), "hide")}
+    hidden = {id(part) for _, part in things.find(hide or (), "hide", with_lamps=True)}
     return [pair for pair in wanted if id(pair[1]) not in hidden]
 
 

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from .grids import GridPicture
 
 _MOST_STEPS = 100
+#: Parts that a record of the scene lists.
+_MOST_RECORDS = 200
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -94,7 +96,7 @@ class Session:
         self.limits.check_triangles(thing.triangles + sum(one.triangles for one in others))
         told = list(thing.warnings)
         if not thing.parts:
-            told.append("it has no mesh, so nothing shows")
+            told.append(f"it has no mesh, {'only lights' if thing.lights else 'so nothing shows'}")
         for other in others[:1]:
             if other.up != thing.up:
                 told.append(
@@ -139,9 +141,11 @@ class Session:
     def record(self) -> dict[str, Any]:
         """Return what the scene holds."""
         pairs = self.things.all_parts()
+        records = [_part_record(self, thing, part) for thing, part in pairs[:_MOST_RECORDS]]
+        bare = [_bare_record(thing) for thing in self.things.values() if not thing.parts]
         return {
-            "objects": [_part_record(self, thing, part) for thing, part in pairs[:200]],
-            "object_count": len(pairs),
+            "objects": [*bare, *records][:_MOST_RECORDS],
+            "object_count": len(pairs) + len(bare),
             "bounds": self.bounds_of([pair for pair in pairs if pair[1].visible]),
             "lights": [
                 type(light).__name__ for thing in self.things.values() for light, _ in thing.lights
@@ -159,6 +163,8 @@ class Session:
     def edit(self, name: str, changes: dict[str, Any]) -> dict[str, Any]:
         """Move, turn, scale, colour, hide or delete an object, or one of its parts.
 
+        The lights of an object move with it, but not with one of several parts.
+
         Parameters
         ----------
         name : str
@@ -172,14 +178,21 @@ class Session:
         given = {key: value for key, value in changes.items() if value is not None}
         if not given or (given.get("delete") is False and len(given) == 1):
             raise InvalidArgumentError(f"edit: say what to change: {', '.join(changes)}")
-        pairs = self.things.find(name, "edit")
+        pairs = self.things.find(name, "edit", with_lamps=True)
         if given.pop("delete", False):
-            self.change(self.things.with_parts({id(part): None for _, part in pairs}))
+            removed = self.things.with_parts({id(part): None for _, part in pairs})
+            self.change(removed.without(name))
             return {"name": name, "bounds": None, "objects": list(self.things)}
-        moved = _motion(given, shown_scene(pairs).bounds.mean(axis=0))
-        parts = {id(part): _edited(part, given, moved) for _, part in pairs}
-        self.change(self.things.with_parts(parts))
-        now = self.things.find(name)
+        if "color" in given and not pairs:
+            raise InvalidArgumentError(f"edit: {shown(name)} has no mesh to color")
+        moved = _motion(given, _middle(pairs, self.things.get(name)))
+        changed = self.things.with_parts(
+            {id(part): _edited(part, given, moved) for _, part in pairs}
+        )
+        if name in changed:
+            changed[name] = _with_lights(changed[name], given, moved)
+        self.change(changed)
+        now = self.things.find(name, with_lamps=True)
         return {"name": name, "bounds": self.bounds_of(now), "objects": list(self.things)}
 
 
@@ -194,6 +207,33 @@ def _part_record(session: Session, thing: Thing, part: Part) -> dict[str, Any]:
         "materials": [printable(name) for name in materials[:8]],
         "visible": part.visible,
     }
+
+
+def _bare_record(thing: Thing) -> dict[str, Any]:
+    """Return the record of an object without parts: its lights are named beside the objects."""
+    return {
+        "name": thing.name,
+        "file": thing.source,
+        "triangles": 0,
+        "bounds": None,
+        "color": None,
+        "materials": [],
+        "visible": thing.shines,
+    }
+
+
+def _middle(parts: list[tuple[Thing, Part]], thing: Thing | None) -> NDArray[np.float64]:
+    """Return the point about which parts turn, or else the lights of an object."""
+    if parts:
+        return shown_scene(parts).bounds.mean(axis=0)
+    places = [pose[:3, 3] for _, pose in thing.lights] if thing is not None else []
+    return np.mean(places, axis=0) if places else np.zeros(3)
+
+
+def _with_lights(thing: Thing, given: dict[str, Any], moved: NDArray[np.float64]) -> Thing:
+    """Return an object whose lights moved with it."""
+    lights = tuple((light, linalg.multiply(moved, pose)) for light, pose in thing.lights)
+    return replace(thing, lights=lights, shines=bool(given.get("visible", thing.shines)))
 
 
 def _mesh(part: Part) -> Any:

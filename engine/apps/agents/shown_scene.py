@@ -1,11 +1,13 @@
 """The scene that a picture of an agent's objects shows.
 
-In: parts of objects. Out: a `Shown`, which tells what the IDs of frames stand for.
+In: parts of objects, and objects that are lights alone. Out: a `Shown`, which tells what the IDs of
+frames stand for.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,10 +33,13 @@ class Shown(NamedTuple):
     viewed : ViewedScene
     owners : dict of int to (Thing, Part)
         By the IDs of nodes.
+    lamps : sequence of Thing
+        Objects without parts, whose lights shine on the others.
     """
 
     viewed: ViewedScene
     owners: dict[int, tuple[Thing, Part]]
+    lamps: Sequence[Thing] = ()
 
     @property
     def origin(self) -> NDArray[np.float64]:
@@ -69,17 +74,16 @@ class Shown(NamedTuple):
         return thing.label(part)
 
 
-def shown_scene(parts: list[tuple[Thing, Part]]) -> Shown:
-    """Return a scene of parts, with the lights of their objects."""
+def shown_scene(parts: list[tuple[Thing, Part]], lamps: Sequence[Thing] = ()) -> Shown:
+    """Return a scene of parts, with the lights of their objects and of lamps."""
     scene = Scene(ambient=_NO_LIGHT)
     owners = {}
     for thing, part in parts:
         node = scene.add(part.drawn, name=thing.label(part), pose=part.pose)
         owners[node.id] = thing, part
     things = list(dict.fromkeys(thing for thing, _ in parts))
-    for thing in things:
-        for light, pose in thing.lights:
-            scene.add(light, pose=pose)
+    for light, pose in lights_of(parts, lamps):
+        scene.add(light, pose=pose)
     viewed = ViewedScene(
         scene,
         ", ".join(thing.name for thing in things) or "nothing",
@@ -89,4 +93,12 @@ def shown_scene(parts: list[tuple[Thing, Part]]) -> Shown:
         model_edges=bool(things) and all(thing.model_edges for thing in things),
         unit=things[0].unit if len({thing.unit for thing in things}) == 1 else "",
     )
-    return Shown(moved_near(viewed), owners)
+    return Shown(moved_near(viewed), owners, lamps)
+
+
+def lights_of(
+    parts: list[tuple[Thing, Part]], lamps: Sequence[Thing] = ()
+) -> list[tuple[Any, NDArray[np.float64]]]:
+    """Return the lights of the objects of parts, and of lamps, with their poses."""
+    things = dict.fromkeys([*(thing for thing, _ in parts), *lamps])
+    return [light for thing in things for light in thing.lights]

@@ -72,6 +72,7 @@ class Thing:
         Unique in the scene.
     parts : tuple of Part
     lights : tuple of (light, pose)
+        They shine while a part shows; those of an object without parts, while ``shines``.
     source : str
         The file's name below the root; empty for scripts.
     format, unit : str
@@ -81,6 +82,7 @@ class Thing:
     warnings : tuple of str
     model_edges : bool
         As of `ViewedScene`.
+    shines : bool
     """
 
     name: str
@@ -92,6 +94,7 @@ class Thing:
     up: str = "+Y"
     warnings: tuple[str, ...] = field(default=())
     model_edges: bool = False
+    shines: bool = True
 
     @property
     def triangles(self) -> int:
@@ -140,21 +143,23 @@ def unused(name: str, taken: Iterable[str]) -> str:
 class Things(dict[str, Thing]):
     """The objects of a scene by name, in the order in which they came."""
 
-    def find(self, names: str | Iterable[str], what: str = "objects") -> list[tuple[Thing, Part]]:
+    def find(
+        self, names: str | Iterable[str], what: str = "objects", *, with_lamps: bool = False
+    ) -> list[tuple[Thing, Part]]:
         """Return the parts that names stand for: all those of an object, or one of them.
 
         Raises
         ------
         InvalidArgumentError
-            There is no such object; the error suggests one.
+            There is no such object; the error suggests one. Or it has no part; with ``with_lamps``
+            it then stands for none.
         """
-        names = [names] if isinstance(names, str) else names
-        if not isinstance(names, (list, tuple)) or not all(isinstance(n, str) for n in names):
-            raise InvalidArgumentError(f"{what} must be names of objects, not {shown(names)}")
         found: dict[int, tuple[Thing, Part]] = {}
-        for name in names:
+        for name in _checked_names(names, what):
             pairs = self._named(name)
-            if not pairs:
+            if name in self and not (pairs or with_lamps):
+                raise InvalidArgumentError(f"{what}: {shown(name)} has no mesh")
+            if not (pairs or name in self):
                 known = [*self, *(thing.label(part) for thing, part in self.all_parts())]
                 listed = ", ".join(dict.fromkeys(known[:20])) or "none yet: load a file first"
                 raise InvalidArgumentError(
@@ -164,9 +169,21 @@ class Things(dict[str, Thing]):
         return list(found.values())
 
     def _named(self, name: str) -> list[tuple[Thing, Part]]:
-        if isinstance(name, str) and name in self:
+        if name in self:
             return [(self[name], part) for part in self[name].parts]
         return [pair for pair in self.all_parts() if pair[0].label(pair[1]) == name]
+
+    def lamps(self, names: Any = (), hidden: Any = ()) -> list[Thing]:
+        """Return the objects without parts whose lights shine, of some names or of all."""
+        names, hidden = (
+            _checked_names(names or list(self), "objects"),
+            _checked_names(hidden or (), "hide"),
+        )
+        return [
+            thing
+            for name, thing in self.items()
+            if not thing.parts and name in names and name not in hidden and thing.shines
+        ]
 
     def all_parts(self) -> list[tuple[Thing, Part]]:
         return [(thing, part) for thing in self.values() for part in thing.parts]
@@ -181,3 +198,14 @@ class Things(dict[str, Thing]):
             if parts or not thing.parts:
                 found[name] = replace(thing, parts=parts)
         return found
+
+    def without(self, name: str) -> Things:
+        """Return these objects without one."""
+        return Things({key: thing for key, thing in self.items() if key != name})
+
+
+def _checked_names(names: str | Iterable[str], what: str) -> list[str]:
+    names = [names] if isinstance(names, str) else names
+    if not isinstance(names, (list, tuple)) or not all(isinstance(n, str) for n in names):
+        raise InvalidArgumentError(f"{what} must be names of objects, not {shown(names)}")
+    return list(names)

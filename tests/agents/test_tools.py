@@ -1,6 +1,7 @@
 """Tools of the server besides pictures: records against known values, errors in a line."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -189,6 +190,46 @@ def test_scripts_run_only_where_they_may(agent, tmp_path):
         ("a = []\na.append(a)\ndef build(): return a", "too deep"),
     ):
         assert said in may.error("script", code=code)
+
+
+LATE = {
+    "a generator": ("def build():\n    yield e.box()\n    yield 1 / 0", 4),
+    "an iterator": ("def build(): return map(grown, 'ab')\ndef grown(a):\n    1 / 0", 4),
+    "a mapping": (
+        "class Many(dict):\n    def items(self):\n        1 / 0\ndef build(): return Many()",
+        4,
+    ),
+    "a generator that exits": ("def build():\n    yield exit(3)", None),
+}
+
+
+@pytest.mark.parametrize("what", LATE)
+def test_errors_in_what_a_script_returned_name_its_line(tmp_path, what):
+    code, line = LATE[what]
+    said = Agent(tmp_path, allow_scripts=True).error("script", code=f"import engine3d as e\n{code}")
+    if line is None:
+        assert said == "the script ended itself: SystemExit(3)"
+    else:
+        assert said == f"<script>:{line}: ZeroDivisionError: division by zero"
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"import engine3d\nname = '\xe9'\nbuild = engine3d.box", "a.py:2: SyntaxError: .*decode"),
+        (b"# coding: nowhere\n", "a.py:1: SyntaxError: unknown encoding: nowhere"),
+        ("x = 1".encode("utf-16"), "a.py:1: SyntaxError: source code .*null bytes"),
+        (b"# coding: latin-1\nimport engine3d\nx = '\xe9'\nbuild = engine3d.box\n", ""),
+        (b"\xef\xbb\xbfimport engine3d\r\nbuild = engine3d.box", ""),
+    ],
+)
+def test_the_encoding_of_a_script_is_what_it_states(tmp_path, content, said):
+    (tmp_path / "a.py").write_bytes(content)
+    agent = Agent(tmp_path, allow_scripts=True)
+    if said:
+        assert re.match(said, agent.error("script", path="a.py"))
+    else:
+        assert agent.told("script", path="a.py")["triangles"] == 12
 
 
 def test_a_call_ends_when_its_time_is_over(tmp_path):

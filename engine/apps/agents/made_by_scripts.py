@@ -9,12 +9,14 @@ from __future__ import annotations
 import contextlib
 import io
 import traceback
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
 from ...errors import Engine3DError, InvalidArgumentError, printable
+from ...io.reading.sources import read_source
 from ...stage.viewed_thing import viewed_of
+from .server_limits import Limits
 from .session import Session
 from .things import Thing, thing_of, unused
 
@@ -36,46 +38,59 @@ def run_script(session: Session, code: str, path: str, function: str, name: str)
     """
     if bool(code) == bool(path):
         raise InvalidArgumentError("script: give code or path")
-    if path:
-        with open(session.limits.path_to_read(path), encoding="utf-8") as file:
-            code = file.read()
-    printed = io.StringIO()
+    named = session.checked_name(name) if name else unused("script", session.things)
+    source: str | bytes = _read(session.limits, path) if path else code
+    printed, file = io.StringIO(), path or _FILE
     with contextlib.redirect_stdout(printed):
-        made = _called(code, path or _FILE, function)
-        thing = _thing(
-            made, session.checked_name(name) if name else unused("script", session.things)
-        )
+        with _errors_of(file):
+            made = _called(source, file, function)
+        with _errors_of(file, alone=False):  # generators run on, and properties are computed
+            thing = _thing(made, named)
     return session.add(thing) | {"printed": printed.getvalue()[-_MOST_TEXT:]}
 
 
-def _called(code: str, file: str, function: str) -> Any:
+def _read(limits: Limits, path: str) -> bytes:
+    """Return a script's bytes: Python itself knows which encoding they state."""
+    with limits.reading(), read_source(limits.path_to_read(path)) as source:
+        return source.data
+
+
+def _called(code: str | bytes, file: str, function: str) -> Any:
     names: dict[str, Any] = {"__name__": "script", "__file__": file}
+    exec(compile(code, file, "exec", dont_inherit=True), names)
+    call = names.get(function)
+    if not callable(call):
+        raise InvalidArgumentError(f"script: it defines no function {function!r}")
+    return call()
+
+
+@contextlib.contextmanager
+def _errors_of(file: str, *, alone: bool = True) -> Iterator[None]:
+    """Name the script and its line in errors within the block.
+
+    Where the script is not alone, errors in which it has no part are faults of others, and pass.
+    """
     try:
-        exec(compile(code, file, "exec", dont_inherit=True), names)
-        call = names.get(function)
-        if not callable(call):
-            raise InvalidArgumentError(f"script: it defines no function {function!r}")
-        return call()
+        yield
     except Engine3DError:
         raise
     except SystemExit as error:
         raise ScriptError(f"the script ended itself: SystemExit({error.code!r})") from error
     except Exception as error:
-        raise ScriptError(_place_of(error, file)) from error
+        line = _line_of(error, file)
+        if line is None and not alone:
+            raise
+        where = "" if line is None else f"{file}:{line}: "
+        said = printable(str(error)) or "no message"
+        raise ScriptError(f"{where}{type(error).__name__}: {said}") from error
 
 
-def _place_of(error: Exception, file: str) -> str:
-    """Return an exception of a script on one line, with the line of the script."""
-    lines = [
-        frame.lineno
-        for frame in traceback.extract_tb(error.__traceback__)
-        if frame.filename == file
-    ]
-    line = getattr(error, "lineno", None) if isinstance(error, SyntaxError) else None
-    place = line or (lines[-1] if lines else None)
-    said = printable(str(error)) or "no message"
-    where = f"{file}:{place}: " if place else ""
-    return f"{where}{type(error).__name__}: {said}"
+def _line_of(error: Exception, file: str) -> int | None:
+    """Return the line of a script that raised an error; None if it has no part in that."""
+    if isinstance(error, SyntaxError) and error.filename in (file, None):
+        return error.lineno or 1  # of encodings that Python does not know, there is none
+    frames = traceback.extract_tb(error.__traceback__)
+    return next((one.lineno for one in reversed(frames) if one.filename == file), None)
 
 
 def _thing(made: Any, name: str, depth: int = 0) -> Thing:

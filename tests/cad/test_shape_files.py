@@ -108,3 +108,57 @@ def test_a_missing_package_is_named(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert "pip install 'engine3d[cad]'" in done.stdout
+
+
+@pytest.fixture
+def in_many_files(tmp_path):
+    """Write an assembly of two boxes, each in a file outside of the model's folder."""
+    from OCP.STEPCAFControl import STEPCAFControl_Writer
+    from OCP.STEPControl import STEPControl_AsIs
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+    outside, folder = tmp_path / "outside", tmp_path / "models"
+    outside.mkdir()
+    folder.mkdir()
+    document = TDocStd_Document(TCollection_ExtendedString("XCAF"))
+    both = b.Compound([b.Box(1, 2, 3), b.Box(3, 2, 1).moved(b.Location((9, 0, 0)))])
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).AddShape(both.wrapped, True)
+    writer = STEPCAFControl_Writer()
+    writer.Transfer(document, STEPControl_AsIs, "part")
+    writer.Write(str(outside / "whole.step"))
+    text = (outside / "whole.step").read_text()
+    assert "'partSOLID.stp'" in text and (outside / "partSOLID.stp").exists()
+    path = folder / "whole.step"
+    path.write_text(text.replace("'partSOLID", f"'{outside}/partSOLID"))
+    return path
+
+
+def test_a_system_that_cannot_forbid_them_refuses_the_model(in_many_files, alone, monkeypatch):
+    monkeypatch.setattr(step, "can_forbid_files", lambda: False)
+    monkeypatch.delattr(step, "_read_with_ocp")
+    with pytest.raises(e3d.FileFormatError, match="cannot be kept from .*: names other files"):
+        e3d.load_mesh(in_many_files)
+
+
+def test_no_other_files_are_read(in_many_files, alone):
+    said = "holds no shape; it names other files, which are not read: '"
+    with pytest.raises(e3d.FileFormatError, match=said):
+        e3d.load_mesh(in_many_files)
+
+
+@pytest.mark.skipif(importlib.util.find_spec("cascadio") is None, reason="needs cascadio")
+def test_nothing_of_other_files_shows(in_many_files):
+    with pytest.raises(e3d.FileFormatError, match="it names other files, which are not read: '"):
+        e3d.load_mesh(in_many_files)
+
+
+def test_other_files_of_a_whole_model_are_named(tmp_path):
+    path = tmp_path / "plate.step"
+    b.export_step(plate(), str(path))
+    text = path.read_text()
+    end = text.rindex("ENDSEC;")
+    path.write_text(f"{text[:end]}#99999 = DOCUMENT_FILE('manual.pdf','',$,$,'',$);\n{text[end:]}")
+    with pytest.warns(e3d.Engine3DWarning, match="plate.step: names other files.*'manual.pdf'$"):
+        assert len(e3d.load_mesh(path).faces)

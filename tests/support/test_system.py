@@ -151,3 +151,16 @@ def test_a_file_is_replaced_once_its_readers_are_gone(
             system.replace_file(tmp_path / "new", tmp_path / "old")
     assert (tmp_path / "old").read_text() == ("new" if is_replaced else "old")
     assert len(asked) == 1 + (refusals if is_replaced else 0)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such limit")
+def test_no_file_is_opened_where_none_may_be(tmp_path):
+    path = tmp_path / "a"
+    path.write_text("a")
+    with open(path) as before:
+        with system.opening_no_files():
+            with pytest.raises(OSError, match="Too many open files"):
+                os.open(path, os.O_RDONLY)
+            assert before.read() == "a"
+        with open(path) as after:
+            assert after.read() == "a"

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...base import linalg
 from ...base.files.temporary_copy import temporary_copy
+from ...base.system import opening_no_files
 from ...errors import FileFormatError
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
@@ -68,7 +69,9 @@ def _document_parts(path: str, kind: str) -> list[PosedPart]:
     if reader.ReadFile(path) != IFSelect_RetDone:
         return []
     document = TDocStd_Document(TCollection_ExtendedString("XCAF"))
-    if not reader.Transfer(document):
+    with opening_no_files():  # Open CASCADE would read parts from any file that this one names
+        is_whole = reader.Transfer(document)
+    if not is_whole:
         return []
     return list(_Assembly(document).parts())
 

@@ -11,9 +11,11 @@ from __future__ import annotations
 
 import functools
 import importlib.util
+import re
 
 from ...base.optional_packages import needed
-from ...errors import FileFormatError
+from ...base.system import can_forbid_files
+from ...errors import FileFormatError, located
 from ..cad.document_scaling import scale_document
 from ..cad.shape_files import read_parts
 from ..reading.documents import Document
@@ -21,12 +23,16 @@ from ..reading.limited_process import in_limited_process
 from ..reading.posed_parts import MAX_REPEATED, counts_of, document_objects
 from ..reading.reader_registry import Reader
 from ..reading.sources import Source
+from ..reading.text import shown
 from .gltf.gltf import read_gltf
 
 # The largest deviation of a triangle's edge from its curve, as a fraction of its length, and of its
 # normals, in radians.
 _LINEAR, _ANGULAR = 0.001, 0.25
 _STEP = b"ISO-10303-21"
+# A file that holds a part of an assembly, or says something about it.
+_OTHER = re.compile(rb"\bDOCUMENT_FILE\s*\(\s*'((?:[^']|'')*)'")
+_MOST_NAMED = 5
 _BREP = (
     b"DBRep_DrawableShape",
     b"\nCASCADE Topology",
@@ -45,8 +51,33 @@ def read_step(source: Source, split: bool = False, kind: str = "step") -> Docume
     """Read a STEP or an IGES file with cascadio, as `Reader.read`; each part is an object."""
     if kind == "step" and not source.head(64).lstrip().startswith(_STEP):
         raise FileFormatError("not a step file", source.path)
+    others = _others(source) if kind == "step" else ""
+    try:
+        document = _read(source, split, kind, others)
+    except FileFormatError as error:
+        if not others or others in error.message:
+            raise
+        raise FileFormatError(f"{error.message}; it {others}", source.path) from error
+    if others:
+        document.warnings.append(located(others, source.path))
+    return document
+
+
+def _others(source: Source) -> str:
+    """Return what is said of a file that is an assembly of other files; empty if it is whole."""
+    named = dict.fromkeys(name.decode("utf-8", "replace") for name in _OTHER.findall(source.data))
+    if not named:
+        return ""
+    listed = ", ".join(shown(name) for name in [*named][:_MOST_NAMED])
+    return f"names other files, which are not read: {listed}{', …' * (len(named) > _MOST_NAMED)}"
+
+
+def _read(source: Source, split: bool, kind: str, others: str) -> Document:
     if importlib.util.find_spec("cascadio") is None:
         if _has_ocp():
+            if others and not can_forbid_files():
+                why = "cadquery-ocp cannot be kept from other files here"
+                raise FileFormatError(f"{why}: {others}", source.path)
             return _read_with_ocp(source, split, kind)
         raise FileFormatError(needed(f"{kind} files need", "cascadio", "step"), source.path)
     convert = functools.partial(_converted, kind=kind)

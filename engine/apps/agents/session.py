@@ -141,8 +141,8 @@ class Session:
     def record(self) -> dict[str, Any]:
         """Return what the scene holds."""
         pairs = self.things.all_parts()
-        records = [_part_record(self, thing, part) for thing, part in pairs[:_MOST_RECORDS]]
-        bare = [_bare_record(thing) for thing in self.things.values() if not thing.parts]
+        records = [_record(self, thing, part) for thing, part in pairs[:_MOST_RECORDS]]
+        bare = [_record(self, thing) for thing in self.things.values() if not thing.parts]
         return {
             "objects": [*bare, *records][:_MOST_RECORDS],
             "object_count": len(pairs) + len(bare),
@@ -196,29 +196,17 @@ class Session:
         return {"name": name, "bounds": self.bounds_of(now), "objects": list(self.things)}
 
 
-def _part_record(session: Session, thing: Thing, part: Part) -> dict[str, Any]:
-    materials = [one.name for one in _mesh(part).materials if one.name]
+def _record(session: Session, thing: Thing, part: Part | None = None) -> dict[str, Any]:
+    """Return the record of a part, or of an object without parts, which is lights alone."""
+    materials = [] if part is None else [one.name for one in _mesh(part).materials if one.name]
     return {
-        "name": thing.label(part),
+        "name": thing.name if part is None else thing.label(part),
         "file": thing.source,
-        "triangles": part.triangles,
-        "bounds": session.bounds_of([(thing, part)]),
-        "color": part.color,
+        "triangles": thing.triangles if part is None else part.triangles,
+        "bounds": None if part is None else session.bounds_of([(thing, part)]),
+        "color": None if part is None else part.color,
         "materials": [printable(name) for name in materials[:8]],
-        "visible": part.visible,
-    }
-
-
-def _bare_record(thing: Thing) -> dict[str, Any]:
-    """Return the record of an object without parts: its lights are named beside the objects."""
-    return {
-        "name": thing.name,
-        "file": thing.source,
-        "triangles": 0,
-        "bounds": None,
-        "color": None,
-        "materials": [],
-        "visible": thing.shines,
+        "visible": thing.shines if part is None else part.visible,
     }
 
 

@@ -103,9 +103,10 @@ class Plugin:
         Errors of engine3d pass, which plug-ins raise on purpose, and those that the caller handles.
         `SystemExit` does not: no plug-in ends the program that uses it.
         """
+        allowed: tuple[type[BaseException], ...] = (Engine3DError, *passing)
         try:
             yield
-        except (Engine3DError, *passing):
+        except allowed:
             raise
         except (Exception, SystemExit) as error:
             lacks_memory = is_lack_of_memory(error)

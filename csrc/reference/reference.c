@@ -9,8 +9,8 @@
 #include <time.h>
 
 #include "base/fpenv.h"
-#include "data/mirrors.h"
-#include "data/whole_picture.h"
+#include "data/views/mirrors.h"
+#include "data/views/whole_picture.h"
 #include "data/shadow_maps/shadows.h"
 #include "reference/stages.h"
 

@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "data/behind_levels.h"
-#include "data/whole_picture.h"
+#include "data/views/whole_picture.h"
 #include "reference/surface.h"
 
 /* The picture behind: its levels. */

@@ -3,7 +3,7 @@
 
 #include "base/grow.h"
 #include "data/behind_levels.h"
-#include "data/whole_picture.h"
+#include "data/views/whole_picture.h"
 #include "data/sample_patterns.h"
 #include "data/tone_tables.h"
 #include "kernels/types/bending.h"

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "e3d.h"
-#include "data/whole_picture.h"
+#include "data/views/whole_picture.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/texture_slots.h"

@@ -5,7 +5,7 @@
 
 #include "base/grow.h"
 #include "base/limits.h"
-#include "data/whole_picture.h"
+#include "data/views/whole_picture.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "frame/pass/plan.h"

@@ -108,7 +108,7 @@ typedef struct e3d_visible_primitive {
     int32_t first, end;
 } e3d_visible_primitive;
 
-enum { E3D_MOST_STEPS = 16 };
+enum { E3D_MOST_STEPS = 32 }; /* more than steps.c names in all */
 
 /* The steps that shade a bucket; each batch takes all of them in order. */
 typedef struct e3d_steps {

@@ -66,11 +66,11 @@ class Painter:
     ) -> None:
         backend, threads, color_space, samples = how
         self.native = NativeRenderer(backend, threads)
-        self.draw_list = DrawList(color_space, threads)
+        self._told = Told() if told is None else told
+        self.draw_list = DrawList(color_space, threads, self._told)
         self.options = OptionsCache(color_space, threads)
         self.memory = FrameMemory(*samples, threads, around)
         self.how, self._turn = how, turn
-        self._told = Told() if told is None else told
         self._pool = OutputPool()
         turn.hold(self.native)
         self.passes = Passes(

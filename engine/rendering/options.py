@@ -72,8 +72,9 @@ def shows_light(outputs: Iterable[str]) -> bool:
 
 
 def lights_faces(options: RenderOptions, outputs: Iterable[str]) -> bool:
-    """Return whether the outputs show faces with their light."""
-    return options.mode == "lit" and options.wireframe != "only" and shows_light(outputs)
+    """Return whether the outputs show lit faces; radiance does beneath edges, too."""
+    shows_faces = options.wireframe != "only" or "radiance" in outputs
+    return options.mode == "lit" and shows_faces and shows_light(outputs)
 
 
 def drawn_mode(mode: Mode | OutputMode) -> Mode:

@@ -47,7 +47,7 @@ def maps_of(renderer):
 
 
 def plan_of(options, size, threads):
-    tools = Tools(None, None, None, 0, threads, True, (1, 0), None)
+    tools = Tools(None, None, None, 0, threads, True, (1, 0), None, None)
     passes = [make(tools) for make in _passes.PASSES]
     return _passes.plan_of(passes, options, options.outputs, size)
 

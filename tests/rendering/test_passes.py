@@ -88,3 +88,55 @@ def test_a_pass_that_reads_no_scene_is_not_blamed_on_it(monkeypatch, scene):
         monkeypatch.setattr(_passes, "PASSES", (Wrong, ColorPass))
         with Renderer((8, 8)) as renderer, pytest.raises(error):
             renderer.render(scene)
+
+
+@pytest.mark.parametrize("shadow", ["map", "exact"])
+def test_radiance_beneath_edges_has_its_light(shadow):
+    """Edges hide nothing of it: kept and fresh renderers, with them and without, see the same."""
+    scene = e3d.Scene()
+    scene.add(e3d.box((8, 8, 0.1)), translation=(0, 0, -1))
+    box = scene.add(e3d.box())
+    light = e3d.DirectionalLight((-1, -1, -1), shadow=shadow)
+    scene.add(light)
+    view = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 6), (0, 0, 0))
+    kept = Renderer((32, 32))
+    for x in (0.0, 0.5):
+        box.translation = (x, 0, 0)
+        with Renderer((32, 32)) as fresh:
+            drawn = [
+                one.render(scene, view, outputs=("radiance",), wireframe=wireframe).radiance
+                for one in (kept, fresh)
+                for wireframe in ("only", None, "only")
+            ]
+            assert all(np.array_equal(one, drawn[1]) for one in drawn)
+        light.shadow = "none"
+        without = render(scene, view, size=(32, 32), outputs=("radiance",)).radiance
+        light.shadow = shadow
+        assert not np.array_equal(without, drawn[1])
+
+
+@pytest.mark.parametrize("backend", e3d.backends())
+def test_everything_at_once(backend):
+    """The longest list of steps that a batch may take."""
+    scene = e3d.Scene(background=(90, 100, 110), ambient=(0.2, 0.2, 0.2))
+    scene.fog = e3d.Fog((120, 130, 140), 1.0, 9.0)
+    given = {"metallic": 0.0, "roughness": 0.2, "transmission": 0.6, "thickness": 0.1}
+    glass = e3d.Material(
+        **given, color=(200, 90, 60), mirror=0.5, diffuse_transmission=0.3, clearcoat=0.5
+    )
+    texture = e3d.Texture(np.random.default_rng(1).integers(0, 256, (8, 8, 4), dtype=np.uint8))
+    glass.texture = glass.normal_texture = glass.transmission_texture = texture
+    for z in (-1.0, 0.0):
+        pane = e3d.box((2, 2, 0.2))
+        pane.materials = [glass]
+        scene.add(pane, translation=(0.2 * z, 0, z))
+    scene.add(e3d.DirectionalLight((-1, -1, -1), shadow="exact"))
+    scene.add(e3d.lights.RectangleLight(), translation=(0, 1, 3))
+    view = e3d.PerspectiveCamera(), e3d.look_at((1, 1, 4), (0, 0, 0))
+    options = {"outputs": ("color", "radiance"), "tone_mapping": "aces", "ambient_occlusion": True}
+    drawn = []
+    for how in ("scalar", backend):
+        with Renderer((48, 40), backend=how, threads=1) as renderer:
+            frame = renderer.render(scene, view, **options)
+            drawn.append((frame.color.tobytes(), frame.radiance.tobytes()))
+    assert drawn[0] == drawn[1]

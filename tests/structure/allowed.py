@@ -35,7 +35,6 @@ REPEATED_NAMES = ()
 PRIVATE_READS = ()
 REPEATED_LISTS = {
     "a row for each of a list that stands in a layer that knows nothing of the rows": (
-        "apps.cli.commands, apps.cli.commands.completion: bash to zsh",
         "apps.editor.console, apps.editor.ui.console_panel: action to warning",
         "apps.editor.ui.editor_window, apps.editor.ui.panel_layout, apps.editor.ui.workspace: "
         "Console to Timeline",

@@ -23,6 +23,7 @@ from ...model.materials.textures import Reading
 from ...model.motion.posed_mesh import PosedMesh
 from ...model.scene.instances import InstancedMesh, flat_poses, shown_ids
 from ...model.scene.staged_data import AnyData
+from .._told import Told
 from .._view import View
 from .closed_meshes import Holes, holes_of
 from .instance_trees import InstanceTrees
@@ -56,6 +57,7 @@ class DrawList:
         How 8-bit colours of materials and lights are decoded.
     threads : int
         Threads that cut meshes into clusters and move nodes; 0: all.
+    told : Told
 
     Attributes
     ----------
@@ -65,7 +67,7 @@ class DrawList:
     lights : LightList
     """
 
-    def __init__(self, color_space: ColorSpace, threads: int) -> None:
+    def __init__(self, color_space: ColorSpace, threads: int, told: Told) -> None:
         self.native = NativeDrawList()
         self._color_space, self._threads = color_space, threads
         self._data: Callable[[], AnyData | None] = lambda: None
@@ -79,7 +81,7 @@ class DrawList:
         self._with_holes: set[int] = set()  # the closed objects that have holes
         self._watch = Watch()
         self._changed: list[Any] = []  # watched things that changed since the list was made
-        self._materials = MaterialList(self.native, color_space, self._watch)
+        self._materials = MaterialList(self.native, color_space, self._watch, told)
         # The sources of each object, by number: things, and IDs of materials.
         self._listed: list[tuple[Things, tuple[int, ...]]] = []
         self._left = 0  # objects removed or given other materials since all were listed
@@ -234,7 +236,9 @@ class DrawList:
         self.native.clear()
         self.lights.forget()
         self._watch, self._changed = Watch(), []
-        self._materials = MaterialList(self.native, self._color_space, self._watch)
+        self._materials = MaterialList(
+            self.native, self._color_space, self._watch, self._materials.told
+        )
         self._dress_materials()
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False

@@ -7,7 +7,6 @@ float64, and a `Watch` that looks at them and at their textures.
 from __future__ import annotations
 
 import math
-import weakref
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
@@ -17,7 +16,6 @@ from ...base.dirty_tracking import Watch
 from ...base.side_by_side import side_by_side
 from ...base.system import usable_processors
 from ...choices import ColorSpace
-from ...errors import warn
 from ...model.materials.display_colors import shading_color
 from ...model.materials.material import (
     PARAMETERS,
@@ -28,6 +26,7 @@ from ...model.materials.material import (
 )
 from ...model.materials.parameters import TextureSlot
 from ...model.materials.textures import PlacedTexture, Reading, Texture
+from .._told import Told
 from .native_handles import Content, is_new, native_texture
 
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
@@ -66,17 +65,20 @@ class MaterialList:
         The listed materials that mirror.
     reading, finish : callable or None
         As in `SceneData`.
+    told : Told
+        What was warned of.
     """
 
-    def __init__(self, native: NativeDrawList, color_space: ColorSpace, watch: Watch) -> None:
-        self._native, self._color_space, self._watch = native, color_space, watch
+    def __init__(
+        self, native: NativeDrawList, color_space: ColorSpace, watch: Watch, told: Told
+    ) -> None:
+        self._native, self._color_space, self._watch, self.told = native, color_space, watch, told
         self.untextured: frozenset[Material] = frozenset()
         self.mirrors: set[Material] = set()
         self.reading: Reading | None = None
         self.finish: Finish | None = None
         # For each material its places, and its uses there.
         self._places: dict[Material, list[tuple[int, _Use]]] = {}
-        self._told: weakref.WeakSet[Material] = weakref.WeakSet()
         # For each material, the normals it needs and whether it is opaque.
         self._traits: dict[Material, tuple[bool, bool]] = {}
         self._textured: dict[Material, set[Texture]] = {}
@@ -153,12 +155,12 @@ class MaterialList:
 
     def _warn_of_unused(self, material: Material) -> None:
         """Warn once of what a material says and shows only if it is physically based."""
-        said = [] if material in self._told else said_of_physical_ones(material)
-        if said:
-            self._told.add(material)
-            warn(
+        if said := said_of_physical_ones(material):
+            self.told.warn(
+                material,
                 f"{', '.join(said)} of {material!r} is not drawn: it is not physically based; "
-                "give metallic, 0 for glass and cloth, or roughness"
+                "give metallic, 0 for glass and cloth, or roughness",
+                kind="not physically based",
             )
 
     def _texture(

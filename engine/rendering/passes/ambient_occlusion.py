@@ -69,7 +69,8 @@ class AmbientOcclusion(Pass):
     name, advice = "ambient occlusion", "ambient_occlusion=False"
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        return options.ambient_occlusion and lights_faces(options, wanted)
+        shows_faces = options.ambient_occlusion and options.wireframe != "only"
+        return shows_faces and lights_faces(options, wanted)
 
     def arrays(self, width: int, height: int) -> Shapes:
         floats = np.dtype(np.float32)

@@ -60,16 +60,17 @@ class Mirrors(Pass):
         found = [(k, self._part_of(picture, plane, samples)) for k, plane in enumerate(planes)]
         parts = [(k, part) for k, part in found if part is not None]
         views: dict[int, Reflection] = {}
-        for k, part in sorted(parts, key=lambda one: -one[1].area):
+        left = sorted(parts, key=lambda one: (one[1].area, -one[0]))
+        while left and len(views) < MOST_MIRRORS:
+            k, part = left.pop()
             view = self._view(picture, k, planes[k], part)
             if view.is_usable:
                 views[k] = view
-            if len(views) == MOST_MIRRORS:
-                break
-        if len(views) < len(parts) and len(views) == MOST_MIRRORS:
+        self._views = {k: self._views[k] for k in views}
+        if left:
             self.tools.told.warn(
                 picture.scene.data,
-                f"a view shows {MOST_MIRRORS} mirrors, not {len(parts)}: those that "
+                f"a view shows {MOST_MIRRORS} mirrors, not {MOST_MIRRORS + len(left)}: those that "
                 "cover less of it look as without Material.mirror",
                 kind="too many mirrors",
             )

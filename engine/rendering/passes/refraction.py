@@ -38,9 +38,8 @@ class Refraction(Pass):
         self._samples = 1, multiple or (axis * axis if axis > 1 else 0)
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        if not options.refraction or options.hidden_surfaces != "zbuffer":
-            return False
-        return lights_faces(options, wanted)
+        bends = options.refraction and options.wireframe != "only"
+        return bends and options.hidden_surfaces == "zbuffer" and lights_faces(options, wanted)
 
     def draw(self, picture: Picture) -> None:
         if not self.tools.draw_list.native.refracts():

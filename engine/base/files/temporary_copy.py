@@ -15,7 +15,8 @@ def temporary_copy(data: bytes, name: str) -> Iterator[str]:
     It is closed: on Windows nobody else opens a file that is open for writing. When the block ends
     it is removed.
     """
-    with tempfile.TemporaryDirectory(prefix="engine3d-") as folder:
+    # A library that failed may hold it for a while: its error counts, not that of removing.
+    with tempfile.TemporaryDirectory(prefix="engine3d-", ignore_cleanup_errors=True) as folder:
         path = os.path.join(folder, name)
         with open(path, "wb") as file:
             file.write(data)

@@ -14,7 +14,6 @@ import importlib.util
 import re
 
 from ...base.optional_packages import needed
-from ...base.system import can_forbid_files
 from ...errors import FileFormatError, located
 from ..cad.document_scaling import scale_document
 from ..cad.shape_files import read_parts
@@ -30,8 +29,12 @@ from .gltf.gltf import read_gltf
 # normals, in radians.
 _LINEAR, _ANGULAR = 0.001, 0.25
 _STEP = b"ISO-10303-21"
-# A file that holds a part of an assembly, or says something about it.
-_OTHER = re.compile(rb"\bDOCUMENT_FILE\s*\(\s*'((?:[^']|'')*)'")
+# A file that holds a part of an assembly, or says something about it: Open CASCADE opens what this
+# names, wherever it lies, but not what a word as long names that it does not know.
+_ANY_OTHER = re.compile(rb"DOCUMENT_FILE", re.I)
+_OTHER = re.compile(rb"\bDOCUMENT_FILE\b", re.I)
+_UNKNOWN = b"DOCUMENT_FIL_"
+_NAMED = re.compile(rb"\bDOCUMENT_FILE\s*\(\s*'((?:[^']|''){0,1024})'", re.I)
 _MOST_NAMED = 5
 _BREP = (
     b"DBRep_DrawableShape",
@@ -51,9 +54,9 @@ def read_step(source: Source, split: bool = False, kind: str = "step") -> Docume
     """Read a STEP or an IGES file with cascadio, as `Reader.read`; each part is an object."""
     if kind == "step" and not source.head(64).lstrip().startswith(_STEP):
         raise FileFormatError("not a step file", source.path)
-    others = _others(source) if kind == "step" else ""
+    source, others = _alone(source) if kind == "step" else (source, "")
     try:
-        document = _read(source, split, kind, others)
+        document = _read(source, split, kind)
     except FileFormatError as error:
         if not others or others in error.message:
             raise
@@ -63,21 +66,23 @@ def read_step(source: Source, split: bool = False, kind: str = "step") -> Docume
     return document
 
 
-def _others(source: Source) -> str:
-    """Return what is said of a file that is an assembly of other files; empty if it is whole."""
-    named = dict.fromkeys(name.decode("utf-8", "replace") for name in _OTHER.findall(source.data))
+def _alone(source: Source) -> tuple[Source, str]:
+    """Return a source that names no other files, and what is said of them; empty if none was."""
+    data = source.data
+    if _ANY_OTHER.search(data) is None:
+        return source, ""
+    named = dict.fromkeys(name.decode("utf-8", "replace") for name in _NAMED.findall(data))
+    source = source._replace(content=_OTHER.sub(_UNKNOWN, data))
     if not named:
-        return ""
+        return source, ""
     listed = ", ".join(shown(name) for name in [*named][:_MOST_NAMED])
-    return f"names other files, which are not read: {listed}{', …' * (len(named) > _MOST_NAMED)}"
+    more = ", …" * (len(named) > _MOST_NAMED)
+    return source, f"names other files, which are not read: {listed}{more}"
 
 
-def _read(source: Source, split: bool, kind: str, others: str) -> Document:
+def _read(source: Source, split: bool, kind: str) -> Document:
     if importlib.util.find_spec("cascadio") is None:
         if _has_ocp():
-            if others and not can_forbid_files():
-                why = "cadquery-ocp cannot be kept from other files here"
-                raise FileFormatError(f"{why}: {others}", source.path)
             return _read_with_ocp(source, split, kind)
         raise FileFormatError(needed(f"{kind} files need", "cascadio", "step"), source.path)
     convert = functools.partial(_converted, kind=kind)

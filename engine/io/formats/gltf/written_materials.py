@@ -10,12 +10,13 @@ import os
 from typing import Any
 
 from ...._native.images import encode_png
-from ....base.files.confined_reading import why_not_at
+from ....errors import Engine3DError
 from ....model.materials.colors import linear_color
 from ....model.materials.linear_colors import LinearColor
 from ....model.materials.material import Material, is_implied, states_nothing
 from ....model.materials.phong import roughness_of
 from ....model.materials.textures import PlacedTexture, Texture, image_file_of
+from ...reading.sources import read_source
 from ...writing.losses import lost_of_reading
 from .gltf_materials import PARTS, Map, Numbers
 from .written_arrays import GltfArrays
@@ -212,11 +213,8 @@ def _content(texture: Texture) -> tuple[bytes, str, str | None]:
 def _read(path: str) -> bytes | None:
     """Return the file that a texture came from, if it still exists and may still be read."""
     try:
-        if not os.path.isfile(path) or why_not_at(path):
-            return None
-        with open(path, "rb") as file:
-            return file.read()
-    except OSError:
+        return read_source(path).data if os.path.isfile(path) else None
+    except (OSError, Engine3DError):
         return None
 
 

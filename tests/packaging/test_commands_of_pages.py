@@ -61,7 +61,8 @@ def as_engine3d(folder, text):
     [
         ("engine3d render", "exit 0", None),
         ("engine3d render", "echo no such file; exit 3", "engine3d render: 3\nno such file"),
-        ("engine3d run", "exec sleep 60", None),
+        ("engine3d run", "trap 'exit 143' TERM; while :; do sleep 0.1; done", None),
+        ("engine3d run", "sleep 2; trap 'exit 143' TERM; while :; do sleep 0.1; done", None),
         ("engine3d run", "echo no screen; exit 0", "engine3d run: no window\nno screen"),
         ("engine3d run", "trap 'echo lost; exit 1' TERM; while :; do sleep 0.1; done", "run: 1"),
     ],

@@ -198,7 +198,9 @@ def _name(value: Any) -> str:
         )
     # Of the files: their names go on with an ending.
     if (fault := fault_of(f"{value}.png")) is not None:
-        raise InvalidArgumentError(f"name must name files of every system: {fault}")
+        raise InvalidArgumentError(
+            f'name must name files of every system: {fault}; "name" gives another than the model\'s'
+        )
     return value
 
 

@@ -5,6 +5,7 @@ In: a folder, a writer, samples one after the other. Out: its files.
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Iterable, Mapping
 
@@ -43,7 +44,7 @@ def write_dataset(
     InvalidArgumentError, FileAccessError
     """
     root, notes = checked_path(folder), []
-    names: dict[str, str] = {}
+    names: dict[str, tuple[str, bytes]] = {}
     for sample in samples:
         if not isinstance(sample, Sample):
             raise InvalidArgumentError(f"samples must be Samples, not {shown(sample)}")
@@ -59,13 +60,13 @@ def write_dataset(
         return written + list(writer.finish(root, notes))
 
 
-def _check_distinct(paths: Iterable[str], names: dict[str, str]) -> None:
-    """Raise `InvalidArgumentError` if a file would replace that of an earlier picture."""
-    for path in paths:
-        other = names.get(key := folded(path))
-        if other is not None:
-            raise InvalidArgumentError(f"files of two pictures have {common_name(path, other)}")
-        names[key] = path
+def _check_distinct(files: Mapping[str, bytes], names: dict[str, tuple[str, bytes]]) -> None:
+    """Raise `InvalidArgumentError` if a file would replace another one of an earlier picture."""
+    for path, data in files.items():
+        written = path, hashlib.sha256(data).digest()
+        other = names.setdefault(folded(path), written)
+        if other != written:
+            raise InvalidArgumentError(f"files of two pictures have {common_name(path, other[0])}")
 
 
 def save_files(folder: str, files: Mapping[str, Content]) -> None:

@@ -17,6 +17,7 @@ import unicodedata
 _DEVICE = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[\d¹²³]) *([.:].*)?", re.I | re.S)
 _REFUSED = re.compile(r'[\0-\x1f<>:"|?*\\]')
 _DROPPED = (".", " ")
+_HERE = ("", ".", "..")  # parts of paths that name no file
 
 
 def is_device(part: str) -> bool:
@@ -26,7 +27,8 @@ def is_device(part: str) -> bool:
 
 def fault_of(name: str) -> str | None:
     """Return what is wrong on some system with a relative path, whose folders ``/`` separates."""
-    return next(filter(None, map(_fault_of_part, name.split("/"))), None)
+    parts = [part for part in name.split("/") if part not in _HERE]
+    return next(filter(None, map(_fault_of_part, parts)), None)
 
 
 def fault_on_windows(path: str) -> str | None:
@@ -35,7 +37,7 @@ def fault_on_windows(path: str) -> str | None:
     A device may be meant by its bare name, such as ``NUL``.
     """
     _, rest = ntpath.splitdrive(path)
-    parts = [part for part in re.split(r"[\\/]", rest) if part not in ("", ".", "..")]
+    parts = [part for part in re.split(r"[\\/]", rest) if part not in _HERE]
     if len(parts) == 1 and is_device(path) and "." not in path:
         return None
     return next(filter(None, map(_fault_of_part, parts)), None)

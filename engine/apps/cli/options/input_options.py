@@ -105,9 +105,10 @@ def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:
     for name in models:
         job = _job(args, [name], output, taken, _folder_below(top, name))
         if job.output is not None:
-            other = taken.get(key := folded(job.output))
-            if other is not None:
-                same = "" if other == job.output else f", as {other} on Windows and macOS"
+            # Elsewhere names that differ in capitals alone are two.
+            key = folded(job.output) if sys.platform in ("win32", "darwin") else job.output
+            if (other := taken.get(key)) is not None:
+                same = "" if other == job.output else f", as {other}"
                 raise UsageError(
                     f"-o {output}: {job.output} would be written twice{same}; "
                     "add {folder} or {n}"

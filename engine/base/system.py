@@ -156,8 +156,10 @@ def after_fork(function: Callable[[], object]) -> None:
 
 def is_unread(error: OSError) -> bool:
     """Return whether an error of writing means that nobody reads the other end of the pipe."""
+    # One that a program raises may have no number.
+    is_one = isinstance(error, BrokenPipeError) or error.errno in _UNREAD
     # Errors of files name them, such as one of a path that is invalid.
-    return error.errno in _UNREAD and error.filename is None
+    return is_one and error.filename is None
 
 
 def locked(handle: int) -> bool:

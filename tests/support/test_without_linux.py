@@ -16,7 +16,6 @@ ROOT = Path(__file__).resolve().parents[2]
 KNOWN = {
     "O_PATH": {"base/system.py"},
     "memfd_create": {"compat/open3d/_stand_ins.py"},
-    "sched_getaffinity": {"base/system.py"},
 }
 
 

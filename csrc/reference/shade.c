@@ -145,7 +145,9 @@ void ref_show(const e3d_frame *frame, const ref_surface *surface, float out[3])
         ref_map_tone(frame->tone_mapping, out);
         ref_map_tone(frame->tone_mapping, haze);
     }
-    clear_haze(frame, surface, haze, out);
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
         out[c] = ref_clamp(out[c], 0.0f, 1.0f);
+        haze[c] = ref_clamp(haze[c], 0.0f, 1.0f);
+    }
+    clear_haze(frame, surface, haze, out);
 }

@@ -136,11 +136,26 @@ static void map_planes(const e3d_steps *s, e3d_lane_array colors[3])
 
 static void map_tone(const e3d_steps *s) { map_planes(s, batch_of(s)->color); }
 
+/* Clamps as what maps tones does. */
+static void clamp_planes(const e3d_steps *s, e3d_lane_array colors[3])
+{
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < batch_of(s)->count; i++) {
+            float c = colors[k][i] > 0.0f ? colors[k][i] : 0.0f;
+            colors[k][i] = c < 1.0f ? c : 1.0f;
+        }
+}
+
 static void clear_color(const e3d_steps *s)
 {
+    e3d_lane_array *haze = s->out->memory->mirrors.haze, *color = batch_of(s)->color;
     if (tone_of(s) != E3D_TONE_NONE)
-        map_planes(s, s->out->memory->mirrors.haze);
-    clear_haze(s, batch_of(s)->color);
+        map_planes(s, haze);
+    else {
+        clamp_planes(s, haze);
+        clamp_planes(s, color);
+    }
+    clear_haze(s, color);
 }
 
 /* ---- pixels ---- */

@@ -11,6 +11,9 @@ from compat.plotters import plotter, without_opengl
 import engine3d as e3d
 
 pv = pytest.importorskip("pyvista", exc_type=ImportError)
+# What a widget of splines returns before VTK's module of its class is loaded is an object without
+# methods, for whoever asks for that class later, too.
+pytest.importorskip("vtkmodules.vtkCommonComputationalGeometry")
 if not hasattr(pv, "register_plotter_component"):
     pytest.skip("components of plotters came with PyVista 0.48", allow_module_level=True)
 

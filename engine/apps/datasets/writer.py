@@ -70,7 +70,7 @@ def own_files(files: Mapping[str, Content]) -> dict[str, bytes]:
 def contents(folder: str, files: Mapping[str, Content]) -> Iterator[tuple[str, bytes]]:
     """Yield the files to write for a picture: paths in the folder, and bytes."""
     for path, data in files.items():
-        if (fault := fault_of(path)) is not None:
+        if (fault := fault_of(path.replace(os.sep, "/"))) is not None:
             raise InvalidArgumentError(f"files of data sets have names for every system: {fault}")
         target = os.path.join(folder, path)
         if isinstance(data, bytes):

@@ -72,8 +72,6 @@ def checked_path(path: str | bytes | os.PathLike[str]) -> str:
         raise FileAccessError("cannot write: the path holds a zero byte", decoded)
     if "://" in decoded and not os.path.isdir(os.path.dirname(decoded)):
         raise FileAccessError("cannot write to an address: give a path of this machine", decoded)
-    if _ON_WINDOWS and (fault := fault_on_windows(decoded)) is not None:
-        raise FileAccessError(f"cannot write: {fault}", decoded)
     return decoded
 
 
@@ -170,6 +168,9 @@ class _Part:
         self._mode: int | None = None
 
     def open(self) -> None:
+        # Not asked of paths before, which may still hold variables, such as {:03}.
+        if _ON_WINDOWS and (fault := fault_on_windows(self.path)) is not None:
+            raise FileAccessError(f"cannot write: {fault}", self.path)
         if self._below is not None:
             self._target = path_below(self.path, self._below)
         else:

@@ -78,6 +78,13 @@ def test_outputs_that_the_system_takes_for_one_are_not_written(
     assert not list(tmp_path.glob("*.png"))
 
 
+def test_numbers_keep_names_with_capitals_apart(tmp_path):
+    for name in ("a.obj", "b.obj"):
+        (tmp_path / name).write_text(OBJ)
+    assert main(["render", "a.obj", "b.obj", *FAST, "-o", "Out_{n}.png"]) == 0
+    assert {path.name for path in tmp_path.glob("*.png")} == {"Out_1.png", "Out_2.png"}
+
+
 def test_the_tree_of_models_becomes_a_tree_of_pictures(folder, tmp_path, capsys):
     """`{folder}` is empty in the innermost folder that holds all that was given."""
     (folder / "below" / "b.obj").write_text(OBJ)  # another of that name

@@ -12,7 +12,7 @@ import re
 import time
 from collections.abc import Container
 
-from ...base.files.portable_names import folded
+from ...base.files.portable_names import key_here
 from ...io.output.frame_names import FRAME_NUMBER, FrameName, joined_name
 from ...version import __version__
 from .usage import UsageError
@@ -45,7 +45,7 @@ def fill(
     model : str
         Path of the model, or what is shown instead.
     taken : container of str
-        Names that are not free though no file bears them yet, each as `folded` returns it.
+        Names that are not free though no file bears them yet, each as `key_here` returns it.
     folder : str
         The model's folder, relative to the one that was given; empty in that folder itself.
 
@@ -73,7 +73,7 @@ def fill(
         return _filled(pieces, said, 0)
     for number in range(1, _MOST_NUMBERS):
         filled = _filled(pieces, said, number)
-        if folded(filled) not in taken and not os.path.exists(filled):
+        if key_here(filled) not in taken and not os.path.exists(filled):
             return filled
     raise UsageError(f"-o {output}: there are files of all numbers up to {_MOST_NUMBERS - 1:,}")
 

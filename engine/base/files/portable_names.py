@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import ntpath
 import re
+import sys
 import unicodedata
 
 _DEVICE = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[\d¹²³]) *([.:].*)?", re.I | re.S)
@@ -57,6 +58,11 @@ def folded(name: str) -> str:
     if name.isascii():
         return name.lower()
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
+
+
+def key_here(name: str) -> str:
+    """Return a text that is the same for names of files that this system takes for one."""
+    return folded(name) if sys.platform in ("win32", "darwin") else name
 
 
 def common_name(name: str, other: str) -> str:

@@ -12,7 +12,7 @@ import sys
 from collections.abc import Container, Sequence
 from typing import BinaryIO, get_args
 
-from ....base.files.portable_names import folded
+from ....base.files.portable_names import key_here
 from ....choices import ShapesOf
 from ....errors import FileAccessError, FileFormatError
 from ....io.addresses.url_names import is_url
@@ -105,9 +105,7 @@ def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:
     for name in models:
         job = _job(args, [name], output, taken, _folder_below(top, name))
         if job.output is not None:
-            # Elsewhere names that differ in capitals alone are two.
-            key = folded(job.output) if sys.platform in ("win32", "darwin") else job.output
-            if (other := taken.get(key)) is not None:
+            if (other := taken.get(key := key_here(job.output))) is not None:
                 same = "" if other == job.output else f", as {other}"
                 raise UsageError(
                     f"-o {output}: {job.output} would be written twice{same}; "

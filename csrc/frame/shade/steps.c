@@ -127,7 +127,7 @@ static void keep_radiance(const e3d_steps *s) { memcpy(s->out->memory->light, ba
 
 static e3d_tone_mapping tone_of(const e3d_steps *s) { return s->bucket->lit ? s->pass->frame->tone_mapping : E3D_TONE_NONE; }
 
-/* R117 */
+/* R117, and clamps */
 static void map_planes(const e3d_steps *s, e3d_lane_array colors[3])
 {
     float *const color[3] = {colors[0], colors[1], colors[2]};
@@ -136,26 +136,10 @@ static void map_planes(const e3d_steps *s, e3d_lane_array colors[3])
 
 static void map_tone(const e3d_steps *s) { map_planes(s, batch_of(s)->color); }
 
-/* Clamps as what maps tones does. */
-static void clamp_planes(const e3d_steps *s, e3d_lane_array colors[3])
-{
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < batch_of(s)->count; i++) {
-            float c = colors[k][i] > 0.0f ? colors[k][i] : 0.0f;
-            colors[k][i] = c < 1.0f ? c : 1.0f;
-        }
-}
-
 static void clear_color(const e3d_steps *s)
 {
-    e3d_lane_array *haze = s->out->memory->mirrors.haze, *color = batch_of(s)->color;
-    if (tone_of(s) != E3D_TONE_NONE)
-        map_planes(s, haze);
-    else {
-        clamp_planes(s, haze);
-        clamp_planes(s, color);
-    }
-    clear_haze(s, color);
+    map_planes(s, s->out->memory->mirrors.haze);
+    clear_haze(s, batch_of(s)->color);
 }
 
 /* ---- pixels ---- */
@@ -252,7 +236,7 @@ static void add_alpha_steps(e3d_steps *s)
         add(s, s->bucket->bends, e3d_find_bends);
         add(s, s->out->list->light != NULL, keep_radiance);
         add(s, s->out->list->light != NULL && clears_haze(s), clear_radiance);
-        add(s, tone_of(s) != E3D_TONE_NONE, map_tone);
+        add(s, tone_of(s) != E3D_TONE_NONE || clears_haze(s), map_tone);
         add(s, clears_haze(s), clear_color);
     }
     add(s, finds_alphas(sink), e3d_find_alphas);

@@ -360,7 +360,7 @@ cdef class NativeRenderer:
         """Use the handle no more, nor free it: a fork may have caught a frame in mid-write."""
         self.handle = NULL
 
-    cdef int check_whole(self) except -1:
+    cdef int check_usable(self) except -1:
         """Raise if the renderer was abandoned."""
         if self.handle == NULL:
             raise RendererBusyError(FORKED)
@@ -369,7 +369,7 @@ cdef class NativeRenderer:
     def prepare(self, int width, int height, int planes):
         """Have memory ready that frames of so many samples may need, in as many planes."""
         cdef e3d_status status
-        self.check_whole()
+        self.check_usable()
         with nogil:
             status = e3d_renderer_prepare(self.handle, width, height, planes)
         check(status)
@@ -467,7 +467,7 @@ cdef class NativeRenderer:
     cdef int draw(self, const e3d_frame *frame, const e3d_targets *outputs, e3d_stats *stats) except -1:
         """Draw; raise what a signal handler raised, and RendererBusyError if the process was forked meanwhile."""
         cdef e3d_status status
-        self.check_whole()
+        self.check_usable()
         self.interruption = None
         self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL
         with nogil:
@@ -475,7 +475,7 @@ cdef class NativeRenderer:
         if self.interruption is not None:
             error, self.interruption = self.interruption, None
             raise error
-        self.check_whole()
+        self.check_usable()
         check(status)
         return 0
 

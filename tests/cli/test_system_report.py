@@ -73,7 +73,6 @@ def test_each_system_tells_its_name_and_processor(
 ):
     monkeypatch.setattr(sys, "platform", system)
     monkeypatch.setattr(figures, "CPUINFO", "/nowhere")
-    monkeypatch.setattr(system_report, "CPUINFO", "/nowhere")
     monkeypatch.setattr(figures, "answer_of", lambda *command: brand)
     monkeypatch.setattr(platform, "processor", lambda: "by Python")
     monkeypatch.setattr(platform, "mac_ver", lambda: ("14.1", ("", "", ""), "arm64"))

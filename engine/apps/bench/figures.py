@@ -6,6 +6,7 @@ In:  rows of `measuring.measure`. Out: text.
 from __future__ import annotations
 
 import platform
+import re
 import sys
 from pathlib import Path
 
@@ -37,12 +38,16 @@ def _told_processor() -> str:
     """Return what Linux or macOS says; elsewhere nothing."""
     if sys.platform == "darwin":  # platform.processor() says "arm" there
         return answer_of("/usr/sbin/sysctl", "-n", "machdep.cpu.brand_string")
+    name = re.search(r"^model name.*?:(.*)", cpuinfo(), re.MULTILINE)
+    return name[1].strip() if name else ""
+
+
+def cpuinfo() -> str:
+    """Return how Linux describes its processors; nothing elsewhere."""
     try:
-        lines = Path(CPUINFO).read_text("utf-8", "replace").splitlines()
+        return Path(CPUINFO).read_text("utf-8", "replace")
     except OSError:
         return ""
-    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return names[0] if names else ""
 
 
 def heading(size, picture: str = "default") -> list[str]:

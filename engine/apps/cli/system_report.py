@@ -13,7 +13,6 @@ import re
 import sys
 from collections.abc import Callable
 from importlib import metadata
-from pathlib import Path
 
 from ..._native import rasterizer
 from ...base.system import usable_processors
@@ -21,7 +20,7 @@ from ...base.thread_count import resolve_threads
 from ...errors import DisplayError, Engine3DError
 from ...rendering.backend_selection import backends, resolve_backend
 from ...version import __version__
-from ..bench.figures import CPUINFO, machine
+from ..bench.figures import cpuinfo, machine
 from ..viewer.sdl import find_screen, load_sdl
 
 #: Older versions overrun their buffers when they read some damaged images.
@@ -112,11 +111,7 @@ def _distribution() -> str | None:
 
 
 def _processor() -> dict:
-    try:
-        text = Path(CPUINFO).read_text("utf-8", "replace")
-    except OSError:
-        text = ""
-    flags = re.search(r"^(?:flags|Features)\s*:(.*)", text, re.MULTILINE)
+    flags = re.search(r"^(?:flags|Features)\s*:(.*)", cpuinfo(), re.MULTILINE)
     return {
         "name": machine()["processor"],
         "processors": os.cpu_count(),

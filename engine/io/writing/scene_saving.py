@@ -20,6 +20,7 @@ import numpy as np
 from ..._native.images import encode_png
 from ...base.calls import checks_types
 from ...base.files.atomic_write import atomic_write, checked_path
+from ...base.files.confined_reading import is_inside
 from ...base.numbers import shown
 from ...errors import InvalidArgumentError, located, warn
 from ...model.environments.environment import Environment
@@ -310,11 +311,7 @@ class _Writing:
     def _relative(self, path: str, may_be_missing: bool = False) -> str | None:
         """Return the path relative to the scene's folder; None if outside, or missing."""
         real = os.path.realpath(path)
-        try:
-            inside = os.path.commonpath([self._folder, real]) == self._folder
-        except ValueError:
-            return None
-        if not inside or not (may_be_missing or os.path.isfile(real)):
+        if not (is_inside(real, self._folder) and (may_be_missing or os.path.isfile(real))):
             return None
         return os.path.relpath(real, self._folder).replace(os.sep, "/")
 

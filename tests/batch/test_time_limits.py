@@ -15,7 +15,7 @@ from engine3d.apps.cli import main
 from engine3d.batch import read_manifest, run
 
 SCRIPT = {"script": "script.py"}
-LIMIT = 5.0  # a busy machine loads the engine in less
+LIMIT = 20.0 if os.name == "nt" else 5.0  # a busy machine loads the engine in less
 
 
 def test_a_call_that_takes_too_long_ends_its_process_alone():
@@ -57,7 +57,7 @@ def test_a_slow_picture_fails_and_is_tried_again_by_resume(place, manifest, by_t
         who = {"executor": executor} if by_threads else {"jobs": 1}
         summary = run(tasks, out, timeout=LIMIT, **who)
     assert [failure.name for failure in summary.failures] == ["t1"]
-    assert summary.failures[0].error == "it took more than 5 s, and was ended"
+    assert summary.failures[0].error == f"it took more than {LIMIT:g} s, and was ended"
     assert summary.drawn == 3 and not list(out.rglob("*.part"))
     (other,) = place.glob("other*")
     assert not is_running(int(other.name.removeprefix("other")))

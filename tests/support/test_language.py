@@ -39,7 +39,8 @@ from engine3d.base.language import (
         ({"LANG": "C", "LANGUAGE": "fr"}, "en"),
     ],
 )
-def test_the_language_is_that_of_the_locale(environment, expected):
+def test_the_language_is_that_of_the_locale(monkeypatch, environment, expected):
+    monkeypatch.setattr(language, "system_languages", list)  # as where only variables tell
     assert usual_language(environment) == expected
 
 

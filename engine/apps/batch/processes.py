@@ -15,6 +15,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
@@ -27,7 +28,7 @@ from .worker import BEGUN, receive, send
 _PROGRAM = (
     "import sys; sys.path[:] = {path!r}; from engine3d.apps.batch.worker import main; main({idle})"
 )
-_PATIENCE = 5.0  # seconds a process gets to end when asked to
+_PATIENCE = 5.0  # seconds that processes get to end when asked to, together
 
 
 class WorkerDiedError(RuntimeError):
@@ -88,8 +89,9 @@ class ProcessPool:
             self._calls.put(None)
         for worker in self._workers:
             worker.hang_up()
+        deadline = time.monotonic() + _PATIENCE
         for worker in self._workers:
-            worker.join()
+            worker.join(deadline)
 
     def __enter__(self) -> ProcessPool:
         return self
@@ -118,12 +120,12 @@ class _Worker:
             with contextlib.suppress(OSError, ValueError):
                 self.process.stdin.close()
 
-    def join(self) -> None:
-        """Wait for the process to end."""
+    def join(self, deadline: float) -> None:
+        """Wait for the process to end, until a time of the monotonic clock, and kill it then."""
         process = self.process
         if process is not None:
             try:
-                process.wait(_PATIENCE)
+                process.wait(max(deadline - time.monotonic(), 0.0))
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()

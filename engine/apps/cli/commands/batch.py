@@ -78,7 +78,9 @@ class _Progress:
             label = f"drawing, {self._failed:,} failed" if self._failed else "drawing"
             self._bar.update(self._task, advance=1, description=label)
 
-    def __exit__(self, *error: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *error: object) -> None:
         if self._bar is not None:
             with contextlib.suppress(OSError):
                 self._bar.stop()
+        if kind is KeyboardInterrupt:
+            quietness.remark("stopped: with --resume, the batch goes on from here")

@@ -92,6 +92,10 @@ def repository(tmp_path):
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nusemtl a\nf 1 2 3\n"
 
+TEXTURED = (
+    "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n"
+)
+
 
 def test_each_change_of_a_model_is_told(repository):
     repository.write("parts/grown.ply", e3d.box((1, 1, 1)))
@@ -135,6 +139,24 @@ def test_each_change_of_a_model_is_told(repository):
         assert page.width > 3 * SIZE[0] and page.height > 5 * SIZE[1]
     # The working tree of the base is gone again.
     assert len(repository.git("worktree", "list").splitlines()) == 1
+
+
+def test_files_that_moved_are_gone_from_where_they_were(repository):
+    repository.write("old.obj", e3d.uv_sphere(0.7))
+    repository.write("a/x.obj", TEXTURED)
+    repository.write("a/a.mtl", "newmtl a\nmap_Kd t.png\n")
+    (repository.folder / "b").mkdir()
+    Image.new("RGB", (8, 8), (255, 0, 0)).save(repository.folder / "a" / "t.png")
+    base = repository.commit()
+    repository.git("mv", "old.obj", "b/new.obj")
+    repository.git("mv", "a/t.png", "b/t.png")
+    repository.commit()
+    _, models, _ = repository.told(base)
+    assert {name: model["status"] for name, model in models.items()} == {
+        "a/x.obj": "changed",
+        "b/new.obj": "new",
+        "old.obj": "gone",
+    }
 
 
 def area(pixels):

@@ -25,7 +25,9 @@ def changed_models(base, patterns):
     chosen = [f":(glob){one}" for one in patterns]
     names = git("ls-files", f"--with-tree={base}", "--", *chosen)
     models = {one for one in map(PurePosixPath, names) if patterns or is_model(one)}
-    changed = {PurePosixPath(name) for name in git("diff", "--name-only", base, "HEAD")}
+    # Of a file that moved, the old name counts, too.
+    listed = git("diff", "--name-only", "--no-renames", base, "HEAD")
+    changed = {PurePosixPath(name) for name in listed}
     homes = {home_of(path, models) for path in changed if path.suffix.lower() in PARTS}
     found = [path for path in models if path in changed or path.parent in homes]
     return sorted(map(str, found))

@@ -164,6 +164,27 @@ def area(pixels):
     return int((np.abs(pixels - pixels[0, 0]).max(axis=-1) > 40).sum())
 
 
+def triangle_to(x):
+    """Return a PLY file of a triangle with a corner at `x`."""
+    lists = "property list uchar int vertex_indices"
+    axes = "".join(f"property float {axis}\n" for axis in "xyz")
+    head = f"ply\nformat ascii 1.0\nelement vertex 3\n{axes}element face 1\n{lists}\nend_header\n"
+    return f"{head}0 0 0\n{x} 0 0\n0 1 0\n3 0 1 2\n"
+
+
+def test_no_model_ends_the_comparison_of_the_others(repository):
+    for name, x in (("nan.ply", 1), ("was_huge.ply", "1e38"), ("z.ply", 1)):
+        repository.write(name, triangle_to(x))
+    base = repository.commit()
+    for name, x in (("nan.ply", "nan"), ("was_huge.ply", 1), ("z.ply", 2)):
+        repository.write(name, triangle_to(x))
+    repository.commit()
+    outputs, models, _ = repository.told(base)
+    assert outputs == {"changed": 3, "broken": 0}
+    assert models["nan.ply"]["deviation"] is None and models["z.ply"]["deviation"] > 0.5
+    assert [error for model in models.values() if (error := model["after"]["error"])] == []
+
+
 def test_nothing_is_told_where_no_model_differs(repository):
     repository.write("a.ply", e3d.box())
     base = repository.commit()

@@ -1,6 +1,7 @@
 """A model before and after a change: two pictures by one camera, and figures.
 
 In: two paths, of which one may be missing. Out: what is told of the model, as JSON could hold it.
+Whatever fails is told, too, and raises nothing: one model must not end the comparison of all.
 """
 
 from dataclasses import dataclass, field
@@ -65,7 +66,7 @@ def loaded(path):
         side = Side(scene, size=tuple((high - low).tolist()), triangles=triangles_of(scene))
         side.volume = measuring.measure(scene).volume if side.triangles else None
         return side
-    except (e3d.Engine3DError, MemoryError) as error:
+    except Exception as error:
         return Side(error=str(error).removeprefix(f"{path}: ") or type(error).__name__)
 
 
@@ -77,13 +78,17 @@ def triangles_of(scene):
 def draw(sides, size):
     """Draw those that could be read, by one camera that shows both whole."""
     shown = [side for side in sides if side.scene is not None]
+    boxes = [side.scene.bounds for side in shown]
+    for side in shown:
+        draw_side(side, boxes, size)
+
+
+def draw_side(side, boxes, size):
+    """Draw one side by a camera that shows boxes whole."""
     try:
-        view = camera([side.scene.bounds for side in shown], size)
-        for side in shown:
-            side.pixels = e3d.render(side.scene, view, size=size).color
-    except e3d.Engine3DError as error:  # such as for coordinates that no camera can frame
-        for side in shown:
-            side.error = str(error)
+        side.pixels = e3d.render(side.scene, camera(boxes, size), size=size).color
+    except Exception as error:
+        side.error = str(error) or type(error).__name__
 
 
 def camera(boxes, size):
@@ -111,4 +116,8 @@ def deviation(before, after):
     counts = [side.triangles or 0 for side in (before, after)]
     if not min(counts) or max(counts) > MOST_COMPARED:
         return None
-    return measuring.hausdorff(before.scene, after.scene).distance
+    try:
+        found = measuring.hausdorff(before.scene, after.scene).distance
+    except Exception:  # such as for faces of which none has finite corners
+        return None
+    return found if np.isfinite(found) else None

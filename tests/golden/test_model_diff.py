@@ -195,6 +195,18 @@ def test_nothing_is_told_where_no_model_differs(repository):
     assert "none differs" in (repository.outside / "summary").read_text("utf-8")
 
 
+def test_pictures_of_an_earlier_run_do_not_stay(repository):
+    base = repository.commit()
+    repository.write("a.ply", e3d.box())
+    first = repository.commit()
+    repository.told(base)
+    folder = repository.outside / "a folder"
+    (folder / "mine.txt").touch()
+    repository.told(first)
+    left = {path.relative_to(folder).as_posix() for path in folder.rglob("*")}
+    assert left == {"models.json", "mine.txt", "before", "after"}
+
+
 def test_a_file_written_anew_that_shows_the_same_is_no_change(repository):
     repository.write("painted/a.obj", TRIANGLE)
     repository.write("painted/a.mtl", "newmtl a\nKd 1 0 0\n")

@@ -10,6 +10,7 @@ Out: in OUT `models.png` (before, after, and what differs, a model in a row), th
 
 import argparse
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -24,6 +25,7 @@ from summary import cell
 
 MOST = 50  # models
 ROWS = 12  # of the picture
+SIDES = ("before", "after", "different")  # folders of pictures
 HEAD = (
     "| Model | | Triangles | Size | Volume | Surfaces apart, at most |\n|---|---|---|---|---|---|"
 )
@@ -40,8 +42,9 @@ def main():
     arguments = parser.parse_args()
     names = changed_models(arguments.base, arguments.patterns)
     changes = [change for change in drawn(names[:MOST], arguments) if change.status != "same"]
-    write_pictures(changes, arguments.folder)
+    clear(arguments.folder)
     write_json(changes, arguments.folder / "models.json")
+    write_pictures(changes, arguments.folder)
     with open(arguments.summary, "a", encoding="utf-8") as file:
         file.write("\n".join(table(changes, len(names))) + "\n")
     print(f"changed={len(changes)}")
@@ -62,6 +65,17 @@ def drawn(names, arguments):
         before, after = (path if is_there(path) else None for path in paths)
         if before is not None or after is not None:
             yield compare(name, before, after, arguments.size)
+
+
+def clear(folder):
+    """Make a folder, without what an earlier run left there, of which its models.json tells."""
+    folder.mkdir(parents=True, exist_ok=True)
+    if not (folder / "models.json").exists():
+        return
+    for name in SIDES:
+        shutil.rmtree(folder / name, ignore_errors=True)
+    for name in ("models.png", "report.html"):
+        (folder / name).unlink(missing_ok=True)
 
 
 def write_pictures(changes, folder):
@@ -96,7 +110,7 @@ def sheet(changes, folder):
         top = EDGE + row * step
         text = f"{change.name}: {change.status}. Before, after, different"
         pen.text((EDGE, top + 4), printable(text), fill=(0, 0, 0), font=font)
-        for column, side in enumerate(("before", "after", "different")):
+        for column, side in enumerate(SIDES):
             path = Path(folder, side, f"{change.name}.png")
             if path.exists():
                 with Image.open(path) as picture:

@@ -244,23 +244,28 @@ def test_names_and_links_do_no_harm(repository):
     assert not {"b", "c"} & {path.name for path in repository.folder.iterdir()}
 
 
-@pytest.mark.parametrize("base", ["", "0" * 40, "HEAD", "--upload-pack=x"])
+@pytest.mark.parametrize("base", ["", "0" * 40, "no-such", "a:b", "--upload-pack=x"])
 def test_without_a_commit_the_action_says_so(repository, base):
     repository.commit()
     done = repository.run(base)
-    assert done.returncode == 2 and done.stderr.startswith("models: no commit to compare with")
+    assert done.returncode == 2 and "models: no commit to compare with" in done.stderr
 
 
-def test_the_base_is_fetched_where_a_checkout_holds_one_commit(repository, tmp_path):
+@pytest.mark.parametrize("named", ["hash", "origin/trunk", ""])
+def test_the_base_is_fetched_where_a_checkout_holds_one_commit(repository, tmp_path, named):
+    """Without a name it is the default branch, which is the trunk here."""
+    repository.git("checkout", "--quiet", "-b", "trunk")
     repository.write("a.ply", e3d.box())
     base = repository.commit()
+    repository.git("checkout", "--quiet", "-b", "topic")
     repository.write("a.ply", e3d.torus())
     repository.commit()
+    repository.git("checkout", "--quiet", "trunk")
     repository.git("config", "uploadpack.allowAnySHA1InWant", "true")
     origin = repository.folder.rename(tmp_path / "origin")
-    command = ["git", "clone", "--quiet", "--depth=1", origin.as_uri(), repository.folder]
-    subprocess.run(command, check=True)
-    outputs, models, _ = repository.told(base)
+    command = ["git", "clone", "--quiet", "--depth=1", "--branch=topic", origin.as_uri()]
+    subprocess.run([*command, repository.folder], check=True)
+    outputs, models, _ = repository.told(base if named == "hash" else named)
     assert outputs["changed"] == 1 and set(models) == {"a.ply"}
 
 

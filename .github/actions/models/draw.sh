@@ -5,15 +5,28 @@
 #      GITHUB_ACTION_PATH, GITHUB_OUTPUT, GITHUB_STEP_SUMMARY. Out: the folder; `changed` and `broken`;
 #      a table in the summary.
 set -euo pipefail
-base=${MODELS_BASE:-} python=${MODELS_PYTHON:-python}
-[[ $base =~ ^[0-9a-f]{7,64}$ && ! $base =~ ^0+$ ]] || { echo "models: no commit to compare with: '$base'" >&2; exit 2; }
+python=${MODELS_PYTHON:-python} base=${MODELS_BASE:-}
+if [[ $base =~ ^0*$ ]]; then  # of a push that creates a branch, or of an event without a commit before
+    base=origin/HEAD
+    echo "models: no commit came before; compared with the default branch" >&2
+fi
 
-# A checkout holds one commit, unless it was asked for more.
-git cat-file -e "$base^{commit}" 2>/dev/null || git fetch --quiet --no-tags --depth=1 origin "$base"
+# Prints the commit that a name or a hash stands for. A checkout holds one commit, unless it was asked
+# for more; others are fetched, which must not cut off a history that is there whole.
+commit_of() {
+    local depth=
+    [[ $1 != -* ]] || return 1
+    git rev-parse --quiet --verify "$1^{commit}" && return
+    git check-ref-format --allow-onelevel "$1" || return 1
+    [ "$(git rev-parse --is-shallow-repository)" = false ] || depth=--depth=1
+    git fetch --quiet --no-tags $depth origin "${1#origin/}" && git rev-parse --verify "FETCH_HEAD^{commit}"
+}
+commit=$(commit_of "$base") || { echo "models: no commit to compare with: '$base'" >&2; exit 2; }
+
 before=$(mktemp -d)
 trap 'git worktree remove --force "$before/tree" 2>/dev/null; rm -rf "$before"' EXIT
-git worktree add --quiet --detach "$before/tree" "$base"
+git worktree add --quiet --detach "$before/tree" "$commit"
 
 mapfile -t patterns < <(printf '%s' "${MODELS_PATTERNS:-}" | sed '/^[[:space:]]*$/d')
-"$python" "$GITHUB_ACTION_PATH/models.py" --before "$before/tree" --base "$base" --size "${MODELS_SIZE:-480x360}" \
+"$python" "$GITHUB_ACTION_PATH/models.py" --before "$before/tree" --base "$commit" --size "${MODELS_SIZE:-480x360}" \
     --folder "${MODELS_FOLDER:-model-diff}" --summary "$GITHUB_STEP_SUMMARY" -- ${patterns[@]+"${patterns[@]}"} >>"$GITHUB_OUTPUT"

@@ -14,6 +14,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
+from engine3d.base.files.portable_names import fault_of
 
 ACTION = Path(__file__).resolve().parents[2] / ".github" / "actions" / "models"
 SIZE = (96, 64)
@@ -232,13 +233,17 @@ def test_names_and_links_do_no_harm(repository):
     base = repository.commit()
     repository.write(name, e3d.box())
     repository.write("-o.ply", e3d.box())
+    repository.write(f" /{'a' * 251}.ply", e3d.box())
     secret = repository.outside / "secret.ply"
     e3d.box().save(secret)
     (repository.folder / "link.ply").symlink_to(secret)
     repository.commit()
     outputs, models, _ = repository.told(base)
-    assert outputs["changed"] == 2
-    assert set(models) == {name.encode("ascii", "backslashreplace").decode(), "-o.ply"}
+    assert outputs["changed"] == 3
+    assert {name.encode("ascii", "backslashreplace").decode(), "-o.ply"} < set(models)
+    pictures = [path.name for path in (repository.outside / "a folder").rglob("*.png")]
+    assert len(pictures) == 3 + 1  # and all in one
+    assert not [one for one in pictures if fault_of(one) or len(one) > 200]
     summary = (repository.outside / "summary").read_text("utf-8")
     assert "<b>" not in summary and "![" not in summary and "`" not in summary
     assert not {"b", "c"} & {path.name for path in repository.folder.iterdir()}

@@ -20,6 +20,8 @@ from changed_models import changed_models, is_there
 from drawn_model import compare
 from PIL import Image, ImageDraw, ImageFont
 
+from engine3d.apps.golden.names import portable_part
+
 sys.path.append(str(Path(__file__).resolve().parents[1] / "golden"))
 from summary import cell
 
@@ -85,7 +87,7 @@ def write_pictures(changes, folder):
         for change in changes:
             pixels = getattr(change, side).pixels
             if pixels is not None:
-                path = Path(folder, side, f"{change.name}.png")
+                path = picture_path(folder, side, change)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 Image.fromarray(pixels).save(path)
     if not changes:
@@ -95,6 +97,12 @@ def write_pictures(changes, folder):
     if done.returncode not in (0, 1):  # 1: pictures differ
         raise SystemExit("models: engine3d diff failed")
     sheet(changes[:ROWS], folder).save(folder / "models.png")
+
+
+def picture_path(folder, side, change):
+    """Return where a picture of a model lies: under its name, as far as every system takes it."""
+    *folders, name = map(portable_part, change.name.split("/"))
+    return Path(folder, side, *folders, f"{name}.png")
 
 
 def sheet(changes, folder):
@@ -111,7 +119,7 @@ def sheet(changes, folder):
         text = f"{change.name}: {change.status}. Before, after, different"
         pen.text((EDGE, top + 4), printable(text), fill=(0, 0, 0), font=font)
         for column, side in enumerate(SIDES):
-            path = Path(folder, side, f"{change.name}.png")
+            path = picture_path(folder, side, change)
             if path.exists():
                 with Image.open(path) as picture:
                     page.paste(picture.convert("RGB"), (EDGE + column * (width + EDGE), top + LINE))

@@ -37,7 +37,7 @@ def test_name(classes: list[str], test: str, number: int) -> str:
     function, case = (match["function"], match["case"]) if match else (test, None)
     joined = ".".join([*classes, function])
     whole = joined if case is None else f"{joined}-{case}"
-    return _part(whole if number == 1 else f"{whole}-{number}")
+    return portable_part(whole if number == 1 else f"{whole}-{number}")
 
 
 def given_name(name: str) -> str:
@@ -55,10 +55,10 @@ def given_name(name: str) -> str:
         raise InvalidArgumentError(
             f"{name!r} is no name of a golden picture: it stays below its folder, without . and .."
         )
-    return "/".join(map(_part, parts))
+    return "/".join(map(portable_part, parts))
 
 
-def _part(text: str) -> str:
+def portable_part(text: str) -> str:
     """Return one part of a path: the text, or a similar one with a hash."""
     text = unicodedata.normalize("NFC", text)
     plain = _ODD.sub("_", text)

@@ -1,6 +1,7 @@
 """The GitHub Action that shows what a change does to models: its step runs on a repository."""
 
 import html
+import importlib
 import json
 import os
 import re
@@ -219,13 +220,39 @@ def test_a_file_written_anew_that_shows_the_same_is_no_change(repository):
     assert outputs == {"changed": 0, "broken": 0} and models == {}
 
 
-def test_patterns_choose_the_models(repository):
+def test_patterns_choose_the_models(repository, monkeypatch):
+    for name in ("one/a.ply", "two/a.ply", "two/deep/b.ply", "two/deep/c.stl", "two/text.txt"):
+        repository.write(name, "")
     base = repository.commit()
-    for name in ("one/a.ply", "two/a.ply", "two/deep/b.ply"):
+    monkeypatch.chdir(repository.folder)
+    monkeypatch.syspath_prepend(ACTION)
+    module = importlib.import_module("changed_models")
+    two = {"two/a.ply", "two/deep/b.ply"}
+    for patterns, expected in (
+        (["two/**/*.ply"], two),
+        (["two/*.ply"], {"two/a.ply"}),
+        (["*/a.ply", "two/deep/b.ply", "!one/*"], two),
+        ([":(exclude)*.stl", ":!one"], two),
+        (["!**/*.ply"], {"two/deep/c.stl"}),
+        ([], {"one/a.ply", "two/deep/c.stl", *two}),
+        (["**/*.txt"], {"two/text.txt"}),
+    ):
+        named = module.named_models(base, patterns)
+        assert {name for names in named.values() for name in names} == expected
+    for pattern in ("/two/*.ply", "../x.ply", ":(nonsense)x"):
+        with pytest.raises(SystemExit, match="models: git refuses"):
+            module.named_models(base, [pattern])
+
+
+def test_a_pattern_without_files_is_told(repository):
+    base = repository.commit()
+    for name in ("one/a.ply", "two/a.ply"):
         repository.write(name, e3d.box())
     repository.commit()
-    _, models, _ = repository.told(base, "two/**/*.ply\n\n")
-    assert set(models) == {"two/a.ply", "two/deep/b.ply"}
+    _, models, _ = repository.told(base, "two/**/*.ply\r\n\nthree/*.ply\n")
+    assert set(models) == {"two/a.ply"}
+    summary = html.unescape((repository.outside / "summary").read_text("utf-8"))
+    assert "No file is named by the pattern three/*.ply." in summary and "two/**" not in summary
 
 
 def test_names_and_links_do_no_harm(repository):

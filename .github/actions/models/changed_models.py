@@ -5,6 +5,7 @@ lies in its folder, or below it with no other model in between. Links are left o
 lead anywhere.
 """
 
+import re
 import subprocess
 from pathlib import Path, PurePosixPath
 
@@ -17,20 +18,48 @@ PARTS = {end for item in formats() if item.kind == "image" for end in item.exten
 PARTS |= {".mtl", ".bin"}
 
 
-def changed_models(base, patterns):
+EXCLUSION = re.compile(r":([!^]|\([^)]*\bexclude\b)")  # of git's words for paths
+
+
+def changed_models(base, named):
     """Return the paths, as git has them, of models that may differ from those of `base`.
 
-    patterns: of git; without any, every model that its extension tells.
+    named: what `named_models` returned.
     """
-    chosen = [f":(glob){one}" for one in patterns]
-    names = git("ls-files", f"--with-tree={base}", "--", *chosen)
-    models = {one for one in map(PurePosixPath, names) if patterns or is_model(one)}
+    models = {PurePosixPath(name) for names in named.values() for name in names}
     # Of a file that moved, the old name counts, too.
     listed = git("diff", "--name-only", "--no-renames", base, "HEAD")
     changed = {PurePosixPath(name) for name in listed}
     homes = {home_of(path, models) for path in changed if path.suffix.lower() in PARTS}
     found = [path for path in models if path in changed or path.parent in homes]
     return sorted(map(str, found))
+
+
+def named_models(base, patterns):
+    """Return the models, at either commit, that each pattern names.
+
+    patterns: of git, in which `!` leaves out; if none names any, those that extensions tell.
+    """
+    specs = {pattern: pathspec(pattern) for pattern in patterns}
+    without = [spec for spec in specs.values() if EXCLUSION.match(spec)]
+    chosen = {pattern: spec for pattern, spec in specs.items() if spec not in without}
+    if chosen:
+        # In this order: git compares exclusions without the folder of a path that comes first.
+        return {pattern: files(base, *without, spec) for pattern, spec in chosen.items()}
+    names = [name for name in files(base, *without) if is_model(PurePosixPath(name))]
+    return {"": names}
+
+
+def pathspec(pattern):
+    """Return a pattern in git's own words, if it is not: one whose `*` stays in a folder."""
+    if pattern.startswith(":"):
+        return pattern
+    return f":(glob,exclude){pattern[1:]}" if pattern.startswith("!") else f":(glob){pattern}"
+
+
+def files(base, *specs):
+    """Return the names of files at either commit."""
+    return git("ls-files", f"--with-tree={base}", "--", *specs)
 
 
 def is_model(path):
@@ -45,7 +74,9 @@ def home_of(part, models):
 
 def git(command, *words):
     """Return the names that a command of git lists."""
-    done = subprocess.run(["git", command, "-z", *words], stdout=subprocess.PIPE, check=True)
+    done = subprocess.run(["git", command, "-z", *words], stdout=subprocess.PIPE)
+    if done.returncode:  # it said why
+        raise SystemExit(f"models: git refuses {' '.join(words)}")
     return [name for name in done.stdout.decode("utf-8", "surrogateescape").split("\0") if name]
 
 

@@ -27,6 +27,5 @@ before=$(mktemp -d)
 trap 'git worktree remove --force "$before/tree" 2>/dev/null; rm -rf "$before"' EXIT
 git worktree add --quiet --detach "$before/tree" "$commit"
 
-mapfile -t patterns < <(printf '%s' "${MODELS_PATTERNS:-}" | sed '/^[[:space:]]*$/d')
 "$python" "$GITHUB_ACTION_PATH/models.py" --before "$before/tree" --base "$commit" --size "${MODELS_SIZE:-480x360}" \
-    --folder "${MODELS_FOLDER:-model-diff}" --summary "$GITHUB_STEP_SUMMARY" -- ${patterns[@]+"${patterns[@]}"} >>"$GITHUB_OUTPUT"
+    --folder "${MODELS_FOLDER:-model-diff}" --summary "$GITHUB_STEP_SUMMARY" --patterns="${MODELS_PATTERNS:-}" >>"$GITHUB_OUTPUT"

@@ -1,6 +1,7 @@
 """Draws the models that differ between two commits, side by side, and tells of them in a table.
 
-    python models.py --before TREE --base COMMIT --size WxH --folder OUT --summary FILE -- [PATTERN]
+    python models.py --before TREE --base COMMIT --size WxH --folder OUT --summary FILE \\
+        --patterns LINES
 
 In:  the folder that is the working tree of a repository; TREE, that of its commit COMMIT.
 Out: in OUT `models.png` (before, after, and what differs, a model in a row), the pictures in
@@ -16,7 +17,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from changed_models import changed_models, is_there
+from changed_models import changed_models, is_there, named_models
 from drawn_model import compare
 from PIL import Image, ImageDraw, ImageFont
 
@@ -40,15 +41,16 @@ def main():
         parser.add_argument(name, type=Path, required=True)
     parser.add_argument("--base", required=True)
     parser.add_argument("--size", type=size, required=True)
-    parser.add_argument("patterns", nargs="*")
+    parser.add_argument("--patterns", type=lines, default=[])
     arguments = parser.parse_args()
-    names = changed_models(arguments.base, arguments.patterns)
+    named = named_models(arguments.base, arguments.patterns)
+    names = changed_models(arguments.base, named)
     changes = [change for change in drawn(names[:MOST], arguments) if change.status != "same"]
     clear(arguments.folder)
     write_json(changes, arguments.folder / "models.json")
     write_pictures(changes, arguments.folder)
     with open(arguments.summary, "a", encoding="utf-8") as file:
-        file.write("\n".join(table(changes, len(names))) + "\n")
+        file.write("\n".join([*table(changes, len(names)), *unused(named)]) + "\n")
     print(f"changed={len(changes)}")
     print(f"broken={sum(change.status == 'broken' for change in changes)}")
 
@@ -59,6 +61,11 @@ def size(text):
     if not 16 <= min(width, height) <= max(width, height) <= 4096:
         raise ValueError(text)
     return width, height
+
+
+def lines(text):
+    """Return the lines of a text that are not blank."""
+    return [line for line in text.splitlines() if line.strip()]
 
 
 def drawn(names, arguments):
@@ -165,6 +172,13 @@ def table(changes, count):
         yield f"\n{count - MOST} more files of models changed, and were not drawn."
     if changes:
         yield "\nThe pictures are among the artifacts of this run: models.png, report.html."
+
+
+def unused(named):
+    """Yield a line for each pattern without a file, such as one with a slip of the pen."""
+    for pattern, names in named.items():
+        if pattern and not names:
+            yield f"\nNo file is named by the pattern {cell(pattern)}."
 
 
 def columns(change):

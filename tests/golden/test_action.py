@@ -141,6 +141,25 @@ def test_arguments_run_no_commands(start, tmp_path):
     assert done.returncode == 2 and "cannot read the arguments" in done.stderr
 
 
+@pytest.mark.parametrize(
+    "typed, words",
+    [
+        ("", []),
+        (" \n", []),
+        ("-k '' -m ''", ["-k", "", "-m", ""]),
+        (
+            "-q\n'a\nb' \"$(c) ~\" x=* {1,2} \\; '\n'",
+            ["-q", "a\nb", "$(c) ~", "x=*", "{1,2}", ";", "\n"],
+        ),
+    ],
+)
+def test_arguments_are_words_as_typed(start, tmp_path, monkeypatch, typed, words):
+    (tmp_path / "pytest.py").write_text("import sys\nprint(ascii(sys.argv[4:]))\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    done, _ = start(typed)
+    assert done.stdout == f"{words!a}\n"
+
+
 def test_the_description_names_what_the_scripts_take():
     text = (ACTION / "action.yml").read_text("utf-8")
     inputs = set(re.findall(r"inputs\.(\w+)", text))

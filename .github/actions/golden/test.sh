@@ -8,14 +8,11 @@ set -uo pipefail
 export CI=${CI:-true}  # under which golden pictures are never written
 folder=${GOLDEN_FOLDER:-golden-report} python=${GOLDEN_PYTHON:-python}
 
-# Words as a shell reads them, quotes too, but neither variables nor commands in them. (`read -d ''`
-# ends at the end of the input, which it calls a failure.)
-arguments=()
-if [ -n "${GOLDEN_ARGUMENTS:-}" ]; then
-    words=$("$python" -c 'import shlex, sys; print("\n".join(shlex.split(sys.argv[1])))' "$GOLDEN_ARGUMENTS") ||
-        { echo "golden: cannot read the arguments: $GOLDEN_ARGUMENTS" >&2; exit 2; }
-    mapfile -t arguments <<<"$words"
-fi
+# Words as a shell reads them, quotes too, but neither variables nor commands in them: they come back
+# with every sign quoted that a shell has a meaning for.
+words=$("$python" -c 'import shlex, sys; print(shlex.join(shlex.split(sys.argv[1])), end="")' "${GOLDEN_ARGUMENTS:-}") ||
+    { echo "golden: cannot read the arguments: $GOLDEN_ARGUMENTS" >&2; exit 2; }
+eval "arguments=($words)"
 
 mkdir -p "$folder" || exit 1
 # Of an earlier step: pytest may end before it writes any.

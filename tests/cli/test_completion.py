@@ -1,6 +1,8 @@
 """What shells complete with the scripts that ``engine3d completion`` prints."""
 
+import os
 import re
+import select
 import shutil
 import subprocess
 
@@ -35,23 +37,57 @@ def test_all_commands_and_options_are_listed():
 
 
 def test_bash_completes(tmp_path, capsys):
-    (tmp_path / "model.obj").touch()
     code = script("bash", capsys)
     for words, expected in (
         (["ren"], ["render"]),
         (["--ver"], ["--version"]),
+        (["--no-plugins", "ren"], ["render"]),
         (["render", "--turn"], ["--turntable"]),
+        (["--no-plugins", "render", "--turn"], ["--turntable"]),
         (["run", "--mode", "n"], ["normal"]),
         (["run", "--threads", ""], []),
-        (["render", "-o", "mo"], ["model.obj"]),
-        (["render", "mo"], ["model.obj"]),
         (["completion", "z"], ["zsh"]),
-        (["run", "--wireframe", "mo"], ["model.obj"]),
     ):
         typed = " ".join(f"'{word}'" for word in ["engine3d", *words])
         call = f"COMP_WORDS=({typed}); COMP_CWORD={len(words)}; _engine3d"
         out = run("bash", f"{code}\n{call}\nprintf '%s\\n' \"${{COMPREPLY[@]}}\"", tmp_path)
         assert list(filter(None, out)) == expected
+
+
+def test_bash_completes_names_of_files_as_they_must_be_typed(tmp_path, capsys):
+    """It does so at a terminal alone, where what stands for engine3d prints its words."""
+    pty = pytest.importorskip("pty")
+    bash = shutil.which("bash") or pytest.skip("needs bash")
+    for name in ("my file.obj", "a*b.obj", "it's.obj"):
+        (tmp_path / name).touch()
+    start = f"{script('bash', capsys)}\nengine3d() {{ printf '<%s>' \"$@\"; }}\nPS1=READY"
+    (tmp_path / "start.sh").write_text(start)
+    terminal, other_end = pty.openpty()
+    command = [bash, "--noprofile", "--rcfile", "start.sh", "-i"]
+    ends = dict.fromkeys(("stdin", "stdout", "stderr"), other_end)
+    child = subprocess.Popen(command, cwd=tmp_path, start_new_session=True, **ends)
+    for line, expected in (
+        ("render my", "<render><my file.obj>"),
+        ("render my\\ f", "<render><my file.obj>"),
+        ("render -o 'my f", "<render><-o><my file.obj>"),
+        ("run --wireframe a", "<run><--wireframe><a*b.obj>"),
+        ("--no-plugins render it", "<--no-plugins><render><it's.obj>"),
+    ):
+        read_until(terminal, "READY")
+        os.write(terminal, f"engine3d {line}\t\n".encode())
+        read_until(terminal, expected)
+    os.write(terminal, b"\x04")
+    child.wait(20)
+    os.close(terminal)
+    os.close(other_end)
+
+
+def read_until(terminal, text):
+    """Read what a terminal shows until there is a text."""
+    shown = ""
+    while text not in shown:
+        assert select.select([terminal], [], [], 20)[0], shown
+        shown += os.read(terminal, 1).decode("latin-1")
 
 
 def test_fish_completes(tmp_path, capsys):

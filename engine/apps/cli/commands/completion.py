@@ -86,25 +86,29 @@ def bash_script(listed: list[Command]) -> Iterator[str]:
     yield "# engine3d completion for bash"
     yield "_engine3d() {"
     yield "    local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}"
-    yield "    local words= command=${COMP_WORDS[1]}"
-    yield '    if [ "$COMP_CWORD" -eq 1 ]; then'
-    yield f'        words="{names} {_names(first)}"'
-    yield '        COMPREPLY=($(compgen -W "$words" -- "$current"))'
-    yield "        return"
-    yield "    fi"
+    yield "    local words= files= command= index"
+    yield "    for ((index = 1; index < COMP_CWORD; index++)); do"
+    yield "        [[ ${COMP_WORDS[index]} == -* ]] || { command=${COMP_WORDS[index]}; break; }"
+    yield "    done"
     yield '    case "$command $before" in'
     for command in commands:
         yield from _bash_values(command)
-    yield "    esac"
-    yield '    case "$command" in'
+    yield '        *) case "$command" in'
+    yield f'            "") words="{names} {_names(first)}" ;;'
     for command in commands:
         words = " ".join(filter(None, (_names(command), *command.words)))
-        yield f'        {command.name}) words="{words}" ;;'
+        files = "" if command.words else "; files=1"
+        yield f'            {command.name}) words="{words}"{files} ;;'
+    yield "            *) files=1 ;;"
+    yield "        esac ;;"
     yield "    esac"
+    yield "    COMPREPLY=()"
+    # Where there is no reply, bash itself completes files, which quotes their names.
+    yield '    if [ -n "$files" ] && [[ $current != -* ]]; then return; fi'
     yield '    COMPREPLY=($(compgen -W "$words" -- "$current"))'
-    yield '    [[ "$current" == -* ]] || COMPREPLY+=($(compgen -f -- "$current"))'
+    yield "    compopt +o default 2>/dev/null"  # bash 3, of macOS, has none and offers files
     yield "}"
-    yield "complete -o filenames -F _engine3d engine3d"
+    yield "complete -o default -F _engine3d engine3d"
 
 
 def _names(command: Command) -> str:
@@ -117,14 +121,9 @@ def _bash_values(command: Command) -> Iterator[str]:
         if option.value is None or option.optional:
             continue
         places = "|".join(f'"{command.name} {name}"' for name in option.names)
-        if option.value == "file":
-            reply = 'COMPREPLY=($(compgen -f -- "$current"))'
-        elif option.value == "free":
-            reply = "COMPREPLY=()"
-        else:
-            words = " ".join(option.value)
-            reply = f'COMPREPLY=($(compgen -W "{words}" -- "$current"))'
-        yield f"        {places}) {reply}; return ;;"
+        words = " ".join(option.value) if isinstance(option.value, tuple) else ""
+        reply = "files=1" if option.value == "file" else f'words="{words}"'
+        yield f"        {places}) {reply} ;;"
 
 
 # zsh
@@ -136,6 +135,10 @@ def zsh_script(listed: list[Command]) -> Iterator[str]:
     yield "#compdef engine3d"
     yield "_engine3d() {"
     yield "    local -a commands"
+    yield "    while (( CURRENT > 2 )) && [[ $words[2] == -* ]]; do"  # options before the command
+    yield "        shift words"
+    yield "        (( CURRENT-- ))"
+    yield "    done"
     yield "    commands=("
     for command in commands:
         yield f"        {_quoted(command.name + ':' + command.help)}"
@@ -235,14 +238,16 @@ def powershell_script(listed: list[Command]) -> Iterator[str]:
     yield "    param($word, $line)"
     yield "    $before = @($line.CommandElements | ForEach-Object { $_.ToString() })"
     yield "    if ($word) { $before = @($before | Select-Object -SkipLast 1) }"
-    yield "    $words = if ($before.Count -lt 2) {"
+    yield "    $rest = @($before | Select-Object -Skip 1)"
+    yield "    $command = $rest | Where-Object { -not $_.StartsWith('-') } | Select-Object -First 1"
+    yield "    $words = if (-not $command) {"
     yield f"        {_powershell_list([*names, *_names(first).split()])}"
     yield "    } else {"
-    yield '        switch -CaseSensitive ($before[1] + " " + $before[-1]) {'
+    yield '        switch -CaseSensitive ($command + " " + $before[-1]) {'
     for command in commands:
         yield from _powershell_values(command)
     yield "            default {"
-    yield "                switch -CaseSensitive ($before[1]) {"
+    yield "                switch -CaseSensitive ($command) {"
     for command in commands:
         options = _powershell_list(_names(command).split())
         words = _powershell_list(command.words)

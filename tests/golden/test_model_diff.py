@@ -153,7 +153,10 @@ def test_files_that_moved_are_gone_from_where_they_were(repository):
     repository.git("mv", "old.obj", "b/new.obj")
     repository.git("mv", "a/t.png", "b/t.png")
     repository.commit()
-    _, models, _ = repository.told(base)
+    _, models, rows = repository.told(base)
+    assert rows[0] == "| a/x.obj | changed: the picture alone | 1 | 1 x 1 x 0 |  | 0 |"
+    summary = html.unescape((repository.outside / "summary").read_text("utf-8"))
+    assert "\n\na/x.obj: a/a.mtl:2: texture 't.png': not found\n" in summary
     assert {name: model["status"] for name, model in models.items()} == {
         "a/x.obj": "changed",
         "b/new.obj": "new",
@@ -175,16 +178,27 @@ def triangle_to(x):
 
 
 def test_no_model_ends_the_comparison_of_the_others(repository):
-    for name, x in (("nan.ply", 1), ("was_huge.ply", "1e38"), ("z.ply", 1)):
+    for name, x in (("nan.ply", 1), ("was_huge.ply", "1e38"), ("z.ply", 1), ("pointer.ply", 1)):
         repository.write(name, triangle_to(x))
+    repository.write("was_empty.ply", "")
     base = repository.commit()
-    for name, x in (("nan.ply", "nan"), ("was_huge.ply", 1), ("z.ply", 2)):
+    for name, x in (("nan.ply", "nan"), ("was_huge.ply", 1), ("z.ply", 2), ("was_empty.ply", 1)):
         repository.write(name, triangle_to(x))
+    repository.write("pointer.ply", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n")
     repository.commit()
-    outputs, models, _ = repository.told(base)
-    assert outputs == {"changed": 3, "broken": 0}
+    outputs, models, rows = repository.told(base)
+    assert outputs == {"changed": 5, "broken": 1}
     assert models["nan.ply"]["deviation"] is None and models["z.ply"]["deviation"] > 0.5
-    assert [error for model in models.values() if (error := model["after"]["error"])] == []
+    assert "not finite" in models["nan.ply"]["after"]["warnings"][0]
+    told = {row.split(" | ")[0].removeprefix("| "): row.split(" | ")[1] for row in rows}
+    assert told == {
+        "nan.ply": "changed",
+        "pointer.ply": "broken: a pointer of Git LFS: check out with lfs: true",
+        "was_empty.ply": "changed: could not be shown before: "
+        "line 1: not a PLY file: the first line is not 'ply'",
+        "was_huge.ply": "changed",
+        "z.ply": "changed",
+    }
 
 
 def test_nothing_is_told_where_no_model_differs(repository):

@@ -4,6 +4,8 @@ In: two paths, of which one may be missing. Out: what is told of the model, as J
 Whatever fails is told, too, and raises nothing: one model must not end the comparison of all.
 """
 
+import re
+import warnings
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,28 +14,36 @@ import engine3d as e3d
 from engine3d import measuring
 
 MOST_COMPARED = 50_000  # triangles, for how far apart the surfaces are: some seconds
+ROUNDING = 1e-12  # of the largest coordinate: surfaces that are no farther apart are the same
+LFS_POINTER = b"version https://git-lfs.github.com/spec/"
 
 
 @dataclass
 class Side:
     """A model as it was, or as it is.
 
-    error: why it cannot be shown; empty where it can. triangles, size, volume: None if unknown.
+    error: why it cannot be shown; empty where it can. warnings: what the reader left out.
+    triangles, size, volume: None if unknown.
     """
 
     scene: e3d.Scene | None = None
     error: str = ""
+    warnings: list[str] = field(default_factory=list)
     pixels: np.ndarray | None = None
     triangles: int | None = None
     size: tuple[float, ...] | None = None
     volume: float | None = None
+
+    def figures(self):
+        return self.triangles, self.size, self.volume
 
 
 @dataclass
 class Change:
     """What became of a model.
 
-    deviation: how far the surfaces are apart at most; None if unknown.
+    deviation: how far the surfaces are apart at most; None if unknown. reason: of the status, where
+    figures do not tell it.
     """
 
     name: str
@@ -42,13 +52,21 @@ class Change:
     after: Side = field(default_factory=Side)
     deviation: float | None = None
 
+    @property
+    def reason(self):
+        before, after = self.before, self.after
+        if after.error or before.error:
+            return after.error or f"could not be shown before: {before.error}"
+        same = self.deviation == 0 and before.figures() == after.figures()
+        return "the picture alone" if same else ""
+
 
 def compare(name, before, after, size):
     """Return the `Change` of a model.
 
     before, after: paths, or None where there is no such file. size: of the pictures.
     """
-    change = Change(name, "changed", loaded(before), loaded(after))
+    change = Change(name, "changed", loaded(before, name), loaded(after, name))
     draw([change.before, change.after], size)
     change.status = status_of(change, before, after)
     if change.status == "changed":
@@ -56,18 +74,37 @@ def compare(name, before, after, size):
     return change
 
 
-def loaded(path):
-    """Read one side, with its figures."""
+def loaded(path, name):
+    """Read one side. name: the end of its path, as the repository has it."""
     if path is None:
         return Side()
-    try:
-        scene = e3d.load(path)
-        low, high = scene.bounds
-        side = Side(scene, size=tuple((high - low).tolist()), triangles=triangles_of(scene))
-        side.volume = measuring.measure(scene).volume if side.triangles else None
-        return side
-    except Exception as error:
-        return Side(error=str(error).removeprefix(f"{path}: ") or type(error).__name__)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", e3d.Engine3DWarning)
+        try:
+            side = read(path)
+        except Exception as error:
+            side = Side(error=said(error, path, name))
+    side.warnings = [said(one.message, path, name) for one in caught]
+    return side
+
+
+def read(path):
+    """Return a model with its figures."""
+    with open(path, "rb") as file:
+        if file.read(len(LFS_POINTER)) == LFS_POINTER:
+            return Side(error="a pointer of Git LFS: check out with lfs: true")
+    scene = e3d.load(path)
+    low, high = scene.bounds
+    side = Side(scene, size=tuple((high - low).tolist()), triangles=triangles_of(scene))
+    side.volume = measuring.measure(scene).volume if side.triangles else None
+    return side
+
+
+def said(error, path, name):
+    """Return what an error says: of other files, where they are in the repository."""
+    own = rf"{re.escape(str(path))}(?::(\d+))?: "
+    text = re.sub(f"^{own}", lambda found: f"line {found[1]}: " if found[1] else "", str(error))
+    return text.replace(str(path).removesuffix(name), "") or type(error).__name__
 
 
 def triangles_of(scene):
@@ -106,8 +143,9 @@ def status_of(change, before, after):
         return "gone" if after is None else "new"
     if change.before.error:
         return "changed"
-    told = [(side.triangles, side.size, side.volume) for side in (change.before, change.after)]
-    same = told[0] == told[1] and np.array_equal(change.before.pixels, change.after.pixels)
+    same = change.before.figures() == change.after.figures() and np.array_equal(
+        change.before.pixels, change.after.pixels
+    )
     return "same" if same else "changed"
 
 
@@ -120,4 +158,7 @@ def deviation(before, after):
         found = measuring.hausdorff(before.scene, after.scene).distance
     except Exception:  # such as for faces of which none has finite corners
         return None
-    return found if np.isfinite(found) else None
+    if not np.isfinite(found):
+        return None
+    reach = max(np.abs(side.scene.bounds).max() for side in (before, after))
+    return found if found > ROUNDING * reach else 0.0

@@ -153,7 +153,9 @@ def write_json(changes, path):
 
 
 def figures(side):
-    return {name: getattr(side, name) for name in ("error", "triangles", "size", "volume")}
+    return {
+        name: getattr(side, name) for name in ("error", "warnings", "triangles", "size", "volume")
+    }
 
 
 def table(changes, count):
@@ -168,10 +170,20 @@ def table(changes, count):
         yield HEAD
     for change in changes:
         yield f"| {' | '.join(map(cell, columns(change)))} |"
+    for change in changes:
+        yield from warned(change)
     if count > MOST:
         yield f"\n{count - MOST} more files of models changed, and were not drawn."
     if changes:
         yield "\nThe pictures are among the artifacts of this run: models.png, report.html."
+
+
+def warned(change):
+    """Yield a line of what the reader of a model warns of, if it does."""
+    first, *others = change.after.warnings or [""]
+    more = f", and {len(others)} more warnings" if others else ""
+    if first:
+        yield f"\n{cell(printable(change.name))}: {cell(first)}{more}"
 
 
 def unused(named):
@@ -185,7 +197,7 @@ def columns(change):
     """Return the cells of a model's row."""
     sides = change.before, change.after
     yield printable(change.name)
-    yield f"{change.status}: {change.after.error}" if change.after.error else change.status
+    yield f"{change.status}: {change.reason}" if change.reason else change.status
     yield step([side.triangles for side in sides], "{:,}".format)
     yield step([side.size for side in sides], lambda lengths: " x ".join(map(short, lengths)))
     yield step([side.volume for side in sides], short)

@@ -234,13 +234,25 @@ def test_a_file_written_anew_that_shows_the_same_is_no_change(repository):
     assert outputs == {"changed": 0, "broken": 0} and models == {}
 
 
+def module_of_action(name, monkeypatch):
+    monkeypatch.syspath_prepend(ACTION)
+    return importlib.import_module(name)
+
+
+def test_rounding_sets_no_surfaces_apart(tmp_path, monkeypatch):
+    module = module_of_action("drawn_model", monkeypatch)
+    e3d.torus().save(tmp_path / "a.ply")
+    side = module.read(tmp_path / "a.ply")
+    assert 0 < e3d.measuring.hausdorff(side.scene, side.scene).distance < 1e-15
+    assert module.deviation(side, side) == 0
+
+
 def test_patterns_choose_the_models(repository, monkeypatch):
     for name in ("one/a.ply", "two/a.ply", "two/deep/b.ply", "two/deep/c.stl", "two/text.txt"):
         repository.write(name, "")
     base = repository.commit()
     monkeypatch.chdir(repository.folder)
-    monkeypatch.syspath_prepend(ACTION)
-    module = importlib.import_module("changed_models")
+    module = module_of_action("changed_models", monkeypatch)
     two = {"two/a.ply", "two/deep/b.ply"}
     for patterns, expected in (
         (["two/**/*.ply"], two),

@@ -39,3 +39,16 @@ def test_the_number_of_the_pictures_has_its_release(source_tree):
     since, now = ([*map(int, one.split(".")[:2])] for one in (release, __version__))
     assert int(number) == PICTURES and since <= now
     assert not re.search(r"\| after \d", text), "a number is of a release"
+
+
+def test_no_page_installs_what_is_not_published(source_tree):
+    """Until the package is on PyPI, its name there may be somebody else's; a wheel is a file."""
+    pages = [source_tree / "README.md", *(source_tree / "docs").rglob("*.md")]
+    by_name = re.compile(
+        r"\b(?:pipx?|uv tool|uv pip) install (?!-)[^\n`&;]*?\bengine3d(?![-\[\w/.])"
+    )
+    found = [
+        (page.name, line) for page in pages for line in by_name.findall(page.read_text("utf-8"))
+    ]
+    assert "not on PyPI yet" in text_of(source_tree, "docs/start.md")
+    assert found == [("start.md", "pip install engine3d")]  # which says never to

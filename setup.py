@@ -84,17 +84,37 @@ def requirements():
     return [*REQUIREMENTS, SDL] if has_sdl else REQUIREMENTS
 
 
-def project_urls():
-    """The addresses that the package names: those of the repository that releases it.
+def repository():
+    """The address of the repository that releases the package; empty if it is unknown.
 
     The source lies wherever it was copied to. ENGINE3D_REPOSITORY says where this copy does.
     """
-    repository = os.environ.get("ENGINE3D_REPOSITORY", "").rstrip("/")
-    if not repository:
-        return {}
-    if not repository.startswith("https://"):
-        raise SystemExit(f"ENGINE3D_REPOSITORY={repository}: expected https://...")
-    return {name: f"{repository}{page}" for name, page in PAGES.items()}
+    address = os.environ.get("ENGINE3D_REPOSITORY", "").rstrip("/")
+    if address and not address.startswith("https://"):
+        raise SystemExit(f"ENGINE3D_REPOSITORY={address}: expected https://...")
+    return address
+
+
+def project_urls():
+    """The addresses that the package names."""
+    address = repository()
+    return {name: f"{address}{page}" for name, page in PAGES.items()} if address else {}
+
+
+def description():
+    """README.md, in which links and pictures of the source lead to the repository, if it is known.
+
+    PyPI shows it on a page of its own, beside which there are no other files.
+    """
+    text = Path("README.md").read_text("utf-8")
+    address = repository()
+    if not address:
+        return text
+    return re.sub(
+        r"(!?)\[[^]]*\]\((?!\w+:|#)",
+        lambda link: f"{link[0]}{address}/{'raw' if link[1] else 'blob'}/HEAD/",
+        text,
+    )
 
 
 # Untested: setuptools' own choice on Windows does not know the flags of clang. This one calls what
@@ -481,6 +501,8 @@ if __name__ == "__main__":
             "engine3d._native": ["kernels_testing.pyi"],
             "engine3d.data": SOURCE_ONLY,
         },
+        long_description=description(),
+        long_description_content_type="text/markdown",
         install_requires=requirements(),
         project_urls=project_urls(),
         options={"bdist_wheel": WHEEL},

@@ -251,6 +251,20 @@ def test_the_repository_that_releases_it_is_named(source_tree, monkeypatch, give
         assert asked()["Changelog"] == "https://code.invalid/us/engine3d/blob/HEAD/CHANGELOG.md"
 
 
+def test_links_of_the_description_lead_to_the_repository(source_tree, monkeypatch, tmp_path):
+    described = rules(source_tree, "setup.py")["description"]
+    monkeypatch.chdir(tmp_path)
+    text = "![a](a.webp) [b](docs/b.md#c) [`d` e](d/) [f](#f) [g](https://g.invalid/)"
+    (tmp_path / "README.md").write_text(text)
+    assert described() == text
+    monkeypatch.setenv("ENGINE3D_REPOSITORY", "https://code.invalid/us")
+    head = "https://code.invalid/us/{}/HEAD"
+    expected = text.replace("(a", f"({head.format('raw')}/a").replace(
+        "(d", f"({head.format('blob')}/d"
+    )
+    assert described() == expected
+
+
 def test_the_recipe_for_conda_says_what_the_package_does(source_tree):
     yaml = pytest.importorskip("yaml", exc_type=ImportError)
     recipe = yaml.safe_load((source_tree / ".ci" / "conda" / "recipe.yaml").read_text("utf-8"))

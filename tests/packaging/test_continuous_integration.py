@@ -36,6 +36,16 @@ def test_the_newest_python_is_taken(source_tree, tmp_path, there, wanted, found)
     assert (f"/versions/{found}.1/" in done.stdout) == (found is not None)
 
 
+@pytest.mark.parametrize("name", ["minimal_root", "pythons", "quick", "run", "sanitize", "types"])
+@pytest.mark.parametrize("option", ["-h", "--help"])
+def test_scripts_print_their_usage(source_tree, name, option):
+    command = ["bash", source_tree / ".ci" / name, option]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"{name} [" in done.stdout or f"{name} driver [" in done.stdout
+    assert "#" not in done.stdout.split() and "set -e" not in done.stdout
+
+
 def test_what_the_quick_one_tests_is_there(source_tree):
     script = (source_tree / ".ci" / "quick").read_text("utf-8")
     words = [word for word in script.split() if word.startswith("tests/")]

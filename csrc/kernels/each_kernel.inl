@@ -157,8 +157,9 @@ E3D_KERNEL(void, lobe, (const e3d_cell_group *group, e3d_lobe_block *block))
 E3D_KERNEL(void, backdrop, (const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]))
 /* Blends fog over colours at these positions. */
 E3D_KERNEL(void, fog, (const e3d_fog_view *fog, const float *const position[3], int count, float *const color[3]))
-/* Filters the light of pinhole pictures, four numbers a pixel, for pixels of a lens (R204). */
-E3D_KERNEL(void, lens, (const uint16_t *light, e3d_lens_batch *batch))
+/* Filters the light of pinhole pictures, four numbers a pixel, for at most E3D_LENS_BATCH pixels of a lens that look into the
+ * same one (R204). mean: four numbers a pixel. */
+E3D_KERNEL(void, lens, (const uint16_t *light, const e3d_lens_face *face, const e3d_lens_pixel *pixels, int count, float *mean))
 /* Tone maps planes of colours to [0, 1]. */
 E3D_KERNEL(void, tone, (e3d_tone_mapping mapping, float *const color[3], int count))
 /* Blends the colours of a batch over the samples; each sample occurs once (R84). */

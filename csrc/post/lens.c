@@ -9,6 +9,7 @@
 
 #include "base/fpenv.h"
 #include "base/pool.h"
+#include "base/vectors.h"
 #include "data/lens_filter.h"
 #include "data/srgb_tables.h"
 #include "kernels/kernels.h"
@@ -45,73 +46,48 @@ static void decode_band(void *argument, int band)
     int64_t first = (int64_t)band * PART, last = first + PART < all->total ? first + PART : all->total;
     for (int64_t i = first; i < last; i++) {
         const uint8_t *c = all->from + 4 * i;
-        uint16_t *to = all->light + 4 * i;
         uint32_t opaque = c[3];
-        for (int k = 0; k < 3; k++)
-            to[k] = opaque == 255 ? light[c[k]] : (uint16_t)((light[c[k]] * opaque + 127) / 255);
-        to[3] = (uint16_t)(opaque * 257);
+        uint16_t of[4] = {light[c[0]], light[c[1]], light[c[2]], (uint16_t)(opaque * 257)};
+        if (opaque != 255)
+            for (int k = 0; k < 3; k++)
+                of[k] = (uint16_t)((of[k] * opaque + 127) / 255);
+        memcpy(all->light + 4 * i, of, sizeof of);
     }
 }
 
-static uint8_t code_of(const e3d_lens_colors *all, float light)
+/* Returns the light of a pixel that is not opaque, by its mean light, which is times alpha, and alpha. */
+static float4 light_of(const e3d_lens_colors *all, size_t i, const float mean[4], int32_t opaque)
 {
-    int32_t v = (int32_t)(light + 0.5f);
-    return all->codes->code[v < E3D_LENS_FULL ? v : E3D_LENS_FULL];
+    if (!all->behind)
+        return load4(mean) * splat(opaque > 0 ? (float)E3D_LENS_FULL / mean[3] : 0);
+    const uint8_t *behind = all->behind + 4 * i;
+    const uint16_t *light = all->codes->light;
+    float4 open = splat(1.0f - mean[3] * (1.0f / E3D_LENS_FULL));
+    return load4(mean) + open * (float4){(float)light[behind[0]], (float)light[behind[1]], (float)light[behind[2]], 0};
 }
 
 /* Writes a pixel by its mean light, which is times alpha, and alpha (R205). */
-static void write_pixel(const e3d_lens_colors *all, size_t i, float mean[4])
+static void write_pixel(const e3d_lens_colors *all, size_t i, const float mean[4])
 {
-    uint8_t *to = all->to + 4 * i;
-    int32_t opaque = (int32_t)(mean[3] + 0.5f);
-    if (opaque < E3D_LENS_FULL && all->behind) {
-        float open = 1.0f - mean[3] * (1.0f / E3D_LENS_FULL);
-        for (int k = 0; k < 3; k++)
-            mean[k] = mean[k] + open * (float)all->codes->light[all->behind[4 * i + (size_t)k]];
-        opaque = E3D_LENS_FULL;
-    } else if (opaque < E3D_LENS_FULL) {
-        float share = opaque > 0 ? (float)E3D_LENS_FULL / mean[3] : 0;
-        for (int k = 0; k < 3; k++)
-            mean[k] = mean[k] * share;
+    const uint8_t *code = all->codes->code;
+    int32_t opaque = (int32_t)(mean[3] + 0.5f), alpha = 255;
+    float4 light = load4(mean);
+    if (opaque < E3D_LENS_FULL) {
+        light = light_of(all, i, mean, opaque);
+        alpha = all->behind ? 255 : (opaque * 255 + E3D_LENS_FULL / 2) / E3D_LENS_FULL;
     }
-    for (int k = 0; k < 3; k++)
-        to[k] = code_of(all, mean[k]);
-    to[3] = (uint8_t)((opaque * 255 + E3D_LENS_FULL / 2) / E3D_LENS_FULL);
+    int4 v = __builtin_convertvector(less_of(light + splat(0.5f), splat(E3D_LENS_FULL)), int4);
+    uint8_t rgba[4] = {code[v[0]], code[v[1]], code[v[2]], (uint8_t)alpha};
+    memcpy(all->to + 4 * i, rgba, sizeof rgba);
 }
 
-/* Pixels that wait to be filtered together. */
-typedef struct waiting {
-    e3d_lens_batch batch;
-    size_t pixel[E3D_LENS_BATCH];
-} waiting;
-
-static void add_pixel(waiting *w, int n, const e3d_lens_pixel *p, const e3d_lens_face *face)
+/* Returns how many pixels from one on look into the same face, at most those of a batch. */
+static int alike(const e3d_lens_pixel *pixels, size_t most)
 {
-    e3d_lens_batch *batch = &w->batch;
-    batch->x[n] = p->x;
-    batch->y[n] = p->y;
-    batch->across[n] = p->across;
-    batch->down[n] = p->down;
-    batch->start[n] = (int32_t)face->start;
-    batch->width[n] = face->width;
-    batch->height[n] = face->height;
-}
-
-static void draw_waiting(const lens_job *job, waiting *w)
-{
-    const e3d_lens_colors *all = job->colors;
-    e3d_lens_batch *batch = &w->batch;
-    if (!batch->count)
-        return;
-    const e3d_lens_pixel *last = all->pixels + w->pixel[batch->count - 1];
-    for (int n = batch->count; n < batch->count + E3D_PAD && n < E3D_LENS_BATCH + E3D_PAD; n++)
-        add_pixel(w, n, last, all->faces + last->face);
-    job->kernels->lens(all->light, batch);
-    for (int n = 0; n < batch->count; n++) {
-        float mean[4] = {batch->light[0][n], batch->light[1][n], batch->light[2][n], batch->light[3][n]};
-        write_pixel(all, w->pixel[n], mean);
-    }
-    batch->count = 0;
+    int count = 1;
+    while (count < E3D_LENS_BATCH && (size_t)count < most && pixels[count].face == pixels->face)
+        count++;
+    return count;
 }
 
 static void draw_band(void *argument, int band)
@@ -120,21 +96,21 @@ static void draw_band(void *argument, int band)
     const e3d_lens_colors *all = job->colors;
     size_t first = (size_t)band * BAND * (size_t)all->width, last = first + BAND * (size_t)all->width;
     size_t end = (size_t)all->height * (size_t)all->width;
-    waiting w;
+    float mean[E3D_LENS_BATCH][4];
     e3d_fpenv saved = e3d_fpenv_enter();
-    w.batch.count = 0;
-    for (size_t i = first; i < (last < end ? last : end); i++) {
+    last = last < end ? last : end;
+    for (size_t i = first; i < last;) {
         const e3d_lens_pixel *p = all->pixels + i;
-        if (p->face < 0) {
-            memcpy(all->to + 4 * i, all->outside, 4);
-            continue;
+        int count = alike(p, last - i);
+        if (p->face >= 0)
+            job->kernels->lens(all->light, all->faces + p->face, p, count, mean[0]);
+        for (int n = 0; n < count; n++, i++) {
+            if (p->face < 0)
+                memcpy(all->to + 4 * i, all->outside, 4);
+            else
+                write_pixel(all, i, mean[n]);
         }
-        w.pixel[w.batch.count] = i;
-        add_pixel(&w, w.batch.count, p, all->faces + p->face);
-        if (++w.batch.count == E3D_LENS_BATCH)
-            draw_waiting(job, &w);
     }
-    draw_waiting(job, &w);
     e3d_fpenv_leave(saved);
 }
 

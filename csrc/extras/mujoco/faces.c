@@ -136,7 +136,7 @@ static void fill_colors(const muj_shader *shader, const muj_draw *draw, muj_face
     for (int p = 0; p < shader->lamps.passes; p++)
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < 3; k++)
-                out->color[p][c][k] = draw->rgba[c] * shader->view->tint;
+                ((float *)out)[muj_color_at(p) + 3 * c + k] = draw->rgba[c] * shader->view->tint;
 }
 
 static void set_places(const muj_view *view, const muj_draw *draw, const double at[3], int k, float place[3], muj_face *out)
@@ -197,7 +197,7 @@ int32_t muj_find_face(muj_shader *shader, const muj_draw *draw, int32_t number, 
     if (known->serial == shader->serial && known->number == number && known->triangle == triangle && known->column == column)
         return known->face;
     size_t first = shader->faces.count;
-    if (first > INT32_MAX / 2 || !e3d_array_reserve(&shader->faces, first + sizeof(muj_face) / sizeof(float), sizeof(float)))
+    if (first > INT32_MAX / 2 || !e3d_array_reserve(&shader->faces, first + sizeof(muj_face) / sizeof(float) + 8, sizeof(float)))
         return MUJ_NONE;
     shader->faces.count += (size_t)shader->stride;
     *known = (muj_known){shader->serial, number, triangle, column, (int32_t)first};

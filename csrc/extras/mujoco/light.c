@@ -53,9 +53,10 @@ void muj_light_faces(muj_shader *shader)
     float *faces = shader->faces.data;
     shader->picture->kernels->light(&shader->lamps, corners);
     for (int i = 0; i < corners->count; i++) {
-        float *face = faces + shader->lit[i / 3] + offsetof(muj_face, color) / sizeof(float);
-        for (int n = 0; n < 3 * shader->lamps.passes; n++)
-            face[3 * n + i % 3] = corners->color[n / 3][n % 3][i];
+        float *face = faces + shader->lit[i / 3];
+        for (int p = 0; p < shader->lamps.passes; p++)
+            for (int c = 0; c < 3; c++)
+                face[muj_color_at(p) + 3 * c + i % 3] = corners->color[p][c][i];
     }
     corners->count = 0;
 }

@@ -18,7 +18,7 @@ void muj_begin_shading(muj_shader *shader, const muj_picture *picture, const muj
     shader->view = view;
     shader->is_blending = is_blending;
     muj_set_lamps(picture, view, all_lights, &shader->lamps);
-    shader->stride = (int32_t)(offsetof(muj_face, color) / sizeof(float)) + 9 * shader->lamps.passes;
+    shader->stride = muj_color_at(shader->lamps.passes);
     shader->fog = (muj_fog){frame->fog_end, range != 0 ? range : 1, {frame->fog[0], frame->fog[1], frame->fog[2]}};
     shader->seen.number = MUJ_NONE;
 }

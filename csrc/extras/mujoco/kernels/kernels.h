@@ -95,12 +95,20 @@ typedef struct muj_corners {
 /* ---- fragments ---- */
 
 /* A triangle's corners, as numbers one after the other: at (x, y), in pixels from the first one of a column and a band, corner
- * k weighs (base[k] + x*across[k]) + y*down[k], over the three's sum. Of the colours as many passes are there as needed. */
+ * k weighs (base[k] + x*across[k]) + y*down[k], over the three's sum. What most fragments need comes first, since it is read in
+ * blocks of eight numbers. */
 typedef struct muj_face {
     float base[3], across[3], down[3];
-    float alpha[3], ahead[3], coordinates[3][3], place[3][3]; /* the last two: channel, corner */
-    float color[MUJ_PASSES][3][3];                            /* pass, channel, corner */
+    float color[3][3], coordinates[3][3], alpha[3], ahead[3], place[3][3]; /* channel, corner; the first pass's colour */
+    float shadow_color[MUJ_PASSES - 1][3][3];                              /* of as many passes as there are */
 } muj_face;
+
+/* Where the colour of a pass begins in a face. */
+static inline int muj_color_at(int pass)
+{
+    size_t at = pass ? offsetof(muj_face, shadow_color) + (size_t)(pass - 1) * 9 * sizeof(float) : offsetof(muj_face, color);
+    return (int)(at / sizeof(float));
+}
 
 typedef struct muj_fog {
     float end, range, color[3];
@@ -108,7 +116,7 @@ typedef struct muj_fog {
 
 /* Fragments that one texture covers, or none. */
 typedef struct muj_batch {
-    const float *faces;
+    const float *faces;             /* eight numbers more may be read */
     const e3d_muj_texture *texture; /* NULL: none */
     const muj_fog *fog;             /* NULL: none */
     int32_t bottom;                 /* the picture's last row, from the band's first one */

@@ -241,7 +241,7 @@ static void scalar_shade(muj_batch *batch)
         for (int p = 0; p < batch->passes; p++) {
             batch->code[p][i] = 0;
             for (int c = 0; c < 3; c++) {
-                float v = unit_range(mix(weight, face->color[p][c])) * texel[c];
+                float v = unit_range(mix(weight, batch->faces + batch->face[i] + muj_color_at(p) + 3 * c)) * texel[c];
                 if (batch->fog)
                     v = v * share + (p ? 0 : batch->fog->color[c]) * (1 - share);
                 batch->code[p][i] |= code_of(v) << 8 * c;

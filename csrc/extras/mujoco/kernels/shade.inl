@@ -2,16 +2,42 @@
 
 #define MUJ_PART(member) (int)(offsetof(muj_face, member) / sizeof(float))
 
-/* The faces of a vector's fragments: one for all, or one each. */
+enum { FACE_BLOCK = 8,
+       FACE_BLOCKS = (sizeof(muj_face) / sizeof(float) + FACE_BLOCK - 1) / FACE_BLOCK };
+
+/* The faces of a vector's fragments: one for all, or one each, whose numbers are turned to columns. */
 typedef struct face_view {
-    const float *faces;
-    vi32 first;
-    int is_one;
+    const float *one;               /* NULL: one each */
+    vi32 column[FACE_BLOCK * FACE_BLOCKS];
 } face_view;
 
 static ALWAYS_INLINE vf32 part_at(const face_view *view, int number)
 {
-    return view->is_one ? v_setf(view->faces[number]) : v_asf(v_gatheri(view->faces + number, view->first));
+    return view->one ? v_setf(view->one[number]) : v_asf(view->column[number]);
+}
+
+/* The first numbers of faces that a batch's fragments need. */
+static inline int count_parts(const muj_batch *batch)
+{
+    if (batch->needs_place)
+        return muj_color_at(batch->passes);
+    if (batch->fog)
+        return MUJ_PART(place);
+    if (batch->needs_alpha)
+        return MUJ_PART(ahead);
+    return batch->texture ? MUJ_PART(alpha) : MUJ_PART(coordinates);
+}
+
+static ALWAYS_INLINE void load_faces(const muj_batch *batch, int i, int count, face_view *out)
+{
+    const void *row[V_LANES];
+    for (int l = 0; l < V_LANES; l++)
+        row[l] = batch->faces + batch->face[i + l];
+    for (int at = 0; at < count; at += FACE_BLOCK) {
+        v_load_rows(row, out->column + at);
+        for (int l = 0; l < V_LANES; l++)
+            row[l] = (const float *)row[l] + FACE_BLOCK;
+    }
 }
 
 static ALWAYS_INLINE void parts_at(const face_view *view, int number, int count, vf32 *out)
@@ -124,7 +150,7 @@ static ALWAYS_INLINE void shade_vector(muj_batch *batch, const level_table *tabl
     for (int p = 0; p < batch->passes; p++) {
         vf32 rgb[3];
         for (int c = 0; c < 3; c++) {
-            rgb[c] = unit_range(mixed_part(view, weight, MUJ_PART(color) + 9 * p + 3 * c));
+            rgb[c] = unit_range(mixed_part(view, weight, muj_color_at(p) + 3 * c));
             if (batch->texture)
                 rgb[c] = v_mul(rgb[c], texel[c]);
         }
@@ -147,12 +173,15 @@ static void kernel_shade(muj_batch *batch)
 {
     level_table table;
     const level_table *levels = batch->texture && !batch->texture->meaning && set_table(batch->texture, &table) ? &table : NULL;
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        vi32 first = v_loadi(batch->face + i);
-        face_view one = {batch->faces + batch->face[i], first, 1}, each = {batch->faces, first, 0};
-        if (v_any(v_mnot(v_eqi(first, v_seti(batch->face[i])))))
+    face_view one, each;
+    each.one = NULL;
+    for (int i = 0, count = count_parts(batch); i < batch->count; i += V_LANES) {
+        if (v_any(v_mnot(v_eqi(v_loadi(batch->face + i), v_seti(batch->face[i]))))) {
+            load_faces(batch, i, count, &each);
             shade_vector(batch, levels, &each, i);
-        else
+        } else {
+            one.one = batch->faces + batch->face[i];
             shade_vector(batch, levels, &one, i);
+        }
     }
 }

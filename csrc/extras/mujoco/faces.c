@@ -34,6 +34,8 @@ static void set_grid(const muj_seen *seen, const muj_draw *draw, muj_grid *out)
         place_on_picture(seen, (double[3]){out->at[k][0], out->at[k][1], 0}, clip[k]);
     }
     set_rows(clip, out->row);
+    for (int c = 0; c < 2; c++)
+        out->per_length[c] = plane->cells[c] / (plane->lines[c][plane->cells[c]] - plane->lines[c][0]);
 }
 
 void muj_see(muj_shader *shader, const muj_draw *draw, int32_t number)
@@ -48,18 +50,19 @@ void muj_see(muj_shader *shader, const muj_draw *draw, int32_t number)
         set_grid(seen, draw, &seen->grid);
 }
 
-/* The number of the cell, of those along an axis, in which a coordinate lies. */
-static int32_t find_cell(const e3d_muj_plane *plane, int axis, double at)
+/* The number of the cell, of those along an axis, in which a coordinate lies: near where it were if all were of one size, as
+ * they mostly are. */
+static int32_t find_cell(const e3d_muj_plane *plane, int axis, double per_length, double at)
 {
-    int32_t low = 0, high = plane->cells[axis] - 1;
-    while (low < high) {
-        int32_t middle = (low + high + 1) / 2;
-        if (plane->lines[axis][middle] <= at)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
+    const double *line = plane->lines[axis];
+    int32_t last = plane->cells[axis] - 1;
+    double place = (at - line[0]) * per_length;
+    int32_t cell = place > 0 ? place < last ? (int32_t)place : last : 0;
+    while (cell < last && line[cell + 1] <= at)
+        cell++;
+    while (cell > 0 && line[cell] > at)
+        cell--;
+    return cell;
 }
 
 int32_t muj_cell_at(const muj_draw *draw, const muj_grid *grid, double x, double y)
@@ -71,7 +74,7 @@ int32_t muj_cell_at(const muj_draw *draw, const muj_grid *grid, double x, double
     double sum = (w[0] + w[1]) + w[2];
     for (int c = 0; c < 2; c++)
         at[c] = ((w[0] * grid->at[0][c] + w[1] * grid->at[1][c]) + w[2] * grid->at[2][c]) / sum;
-    int32_t i = find_cell(plane, 0, at[0]), j = find_cell(plane, 1, at[1]);
+    int32_t i = find_cell(plane, 0, grid->per_length[0], at[0]), j = find_cell(plane, 1, grid->per_length[1], at[1]);
     double u = (at[0] - plane->lines[0][i]) / (plane->lines[0][i + 1] - plane->lines[0][i]);
     double v = (at[1] - plane->lines[1][j]) / (plane->lines[1][j + 1] - plane->lines[1][j]);
     return 2 * (i * plane->cells[1] + j) + (u + v > 1);

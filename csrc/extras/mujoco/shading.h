@@ -30,9 +30,9 @@ static inline float *muj_places_of(const muj_fragments *fragments, int axis)
 }
 void muj_free_fragments(muj_fragments *fragments);
 
-/* A plane as a whole: the weights of three of its corners over the picture, and their places on it. */
+/* A plane as a whole: the weights of three of its corners over the picture, and their places on it; cells for each length. */
 typedef struct muj_grid {
-    double row[3][3], at[3][2];
+    double row[3][3], at[3][2], per_length[2];
 } muj_grid;
 
 /* A draw as a view shows it. */

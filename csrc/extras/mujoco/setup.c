@@ -40,7 +40,7 @@ static int reserve_vertices(muj_worker *worker, size_t count)
     if (!e3d_array_reserve(&worker->numbers, 5 * room, sizeof(float)))
         return 0;
     float *numbers = worker->numbers.data;
-    worker->vertices = (muj_vertices){numbers, numbers + room, numbers + 2 * room, {(int32_t *)(numbers + 3 * room), (int32_t *)(numbers + 4 * room)}};
+    worker->vertices = (muj_vertices){numbers, numbers + room, numbers + 2 * room, (int32_t (*)[2])(numbers + 3 * room)};
     return 1;
 }
 
@@ -102,7 +102,7 @@ static void add_plain(const muj_view *view, const muj_vertices *v, const int32_t
 {
     int32_t x[3], y[3];
     for (int k = 0; k < 3; k++)
-        x[k] = v->snapped[0][corner[k]], y[k] = v->snapped[1][corner[k]];
+        x[k] = v->snapped[corner[k]][0], y[k] = v->snapped[corner[k]][1];
     int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
     if (area == 0 || (facing > 0 && area > 0) || (facing < 0 && area < 0))
         return;
@@ -125,18 +125,18 @@ static void add_plain(const muj_view *view, const muj_vertices *v, const int32_t
 
 void muj_set_up(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, int32_t triangle, muj_worker *worker)
 {
-    const int32_t *corner = draw->shape->corners + 3 * (size_t)triangle, *x = worker->vertices.snapped[0];
-    if (x[corner[0]] != MUJ_OUTSIDE && x[corner[1]] != MUJ_OUTSIDE && x[corner[2]] != MUJ_OUTSIDE) {
+    const int32_t *corner = draw->shape->corners + 3 * (size_t)triangle, (*at)[2] = worker->vertices.snapped;
+    if (at[corner[0]][0] != MUJ_OUTSIDE && at[corner[1]][0] != MUJ_OUTSIDE && at[corner[2]][0] != MUJ_OUTSIDE) {
         add_plain(view, &worker->vertices, corner, facing, number, triangle, &worker->records);
         return;
     }
-    muj_point at[3];
+    muj_point point[3];
     for (int k = 0; k < 3; k++) {
         double local[3];
         muj_find_corner(draw, triangle, k, local);
-        at[k] = muj_place(view, draw, local);
+        point[k] = muj_place(view, draw, local);
     }
-    muj_clip_triangle(view, at, facing, number, triangle, &worker->records);
+    muj_clip_triangle(view, point, facing, number, triangle, &worker->records);
 }
 
 void muj_set_up_grid(const muj_view *view, int32_t number, const muj_draw *draw, int32_t facing, e3d_array *out)

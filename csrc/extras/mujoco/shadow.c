@@ -359,7 +359,7 @@ static int is_idle(const cast_job *job, const muj_vertices *v, const int32_t cor
     int32_t numbers[CHUNK + 16];
     muj_shadow_test test = {.bound = bound_of_corners(v, corner)};
     for (int c = 0; c < 2; c++) {
-        int32_t at[3] = {v->snapped[c][corner[0]], v->snapped[c][corner[1]], v->snapped[c][corner[2]]};
+        int32_t at[3] = {v->snapped[corner[0]][c], v->snapped[corner[1]][c], v->snapped[corner[2]][c]};
         if (at[0] == MUJ_OUTSIDE || at[1] == MUJ_OUTSIDE || at[2] == MUJ_OUTSIDE)
             return 0;
         int32_t low = (muj_least(at) + MUJ_SUB / 2 - 1) >> 8, high = (muj_most(at) - MUJ_SUB / 2) >> 8;

@@ -23,15 +23,35 @@ static ALWAYS_INLINE vmask within(vf32 v, float most)
 
 static ALWAYS_INLINE vi32 snapped(vf32 v) { return v_subi(v_asi(v_add(v, v_setf(MUJ_MAGIC))), v_seti(MUJ_MAGIC_BITS)); }
 
+/* Loads threes of words, from number `first` on; of those from `count` on the last one. A row of eight words is loaded for each
+ * where there are as many. */
+static ALWAYS_INLINE void load_threes(const void *threes, int32_t first, int32_t count, vi32 out[3])
+{
+    const char *from = (const char *)threes + 12 * (size_t)first;
+    if (first + V_LANES + 2 <= count) {
+        const void *row[V_LANES];
+        vi32 word[8];
+        for (int l = 0; l < V_LANES; l++)
+            row[l] = from + 12 * l;
+        v_load_rows(row, word);
+        memcpy(out, word, 3 * sizeof *out);
+        return;
+    }
+    vi32 place = v_muli(v_mini(v_iota(), v_seti(count - 1 - first)), v_seti(3));
+    for (int k = 0; k < 3; k++)
+        out[k] = v_gatheri(from + 4 * k, place);
+}
+
 static void kernel_transform(const muj_projection *projection, const float *positions, int32_t count, const muj_vertices *out)
 {
     for (int32_t i = 0; i < count; i += V_LANES) {
-        vi32 index = v_mini(v_addi(v_seti(i), v_iota()), v_seti(count - 1));
+        vi32 words[3];
         vf32 at[3], inverse, place[3];
         for (int k = 0; k < 3; k++)
             __builtin_prefetch(positions + 3 * (size_t)i + 256 + k * V_LANES);
+        load_threes(positions, i, count, words);
         for (int c = 0; c < 3; c++)
-            at[c] = v_asf(v_gatheri(positions + c, v_muli(index, v_seti(3))));
+            at[c] = v_asf(words[c]);
         vf32 w = vertex_row(projection, 3, at);
         inverse = v_div(v_setf(1), w);
         for (int c = 0; c < 3; c++)
@@ -43,8 +63,7 @@ static void kernel_transform(const muj_projection *projection, const float *posi
         v_storef(out->x + i, place[0]);
         v_storef(out->y + i, place[1]);
         v_storef(out->z + i, place[2]);
-        v_storei(out->snapped[0] + i, v_seli(inside, snapped(place[0]), v_seti(MUJ_OUTSIDE)));
-        v_storei(out->snapped[1] + i, v_seli(inside, snapped(place[1]), v_seti(0)));
+        v_store_pairs(out->snapped + i, v_seli(inside, snapped(place[0]), v_seti(MUJ_OUTSIDE)), v_seli(inside, snapped(place[1]), v_seti(0)));
     }
 }
 
@@ -101,17 +120,25 @@ static ALWAYS_INLINE vmask turned_away(int32_t facing, const vi32 x[3], const vi
     return facing > 0 ? v_gt(area, error) : v_lt(area, v_sub(zero, error));
 }
 
+static ALWAYS_INLINE void load_snapped(const muj_vertices *vertices, vi32 number, vi32 *x, vi32 *y)
+{
+    int32_t at[V_LANES];
+    vf32 first, second;
+    v_storei(at, v_shl(number, 1));
+    v_load_pairs((const float *)vertices->snapped, at, &first, &second);
+    *x = v_asi(first), *y = v_asi(second);
+}
+
 static int32_t kernel_choose(const muj_choice *choice, const muj_vertices *vertices, const int32_t *corners, int32_t first, int32_t end,
                              int32_t *out)
 {
     int32_t count = 0;
     for (int32_t t = first; t < end; t += V_LANES) {
-        vi32 number = v_addi(v_seti(t), v_iota()), place = v_muli(v_mini(number, v_seti(end - 1)), v_seti(3)), x[3], y[3];
+        vi32 number = v_addi(v_seti(t), v_iota()), corner[3], x[3], y[3];
         vmask outside = v_gti(v_seti(0), v_seti(0)), shows = v_gti(v_seti(end), number);
+        load_threes(corners, t, end, corner);
         for (int k = 0; k < 3; k++) {
-            vi32 corner = v_gatheri(corners + k, place);
-            x[k] = v_gatheri(vertices->snapped[0], corner);
-            y[k] = v_gatheri(vertices->snapped[1], corner);
+            load_snapped(vertices, corner[k], &x[k], &y[k]);
             outside = v_mor(outside, v_eqi(x[k], v_seti(MUJ_OUTSIDE)));
         }
         if (choice->facing)

@@ -24,11 +24,11 @@ typedef struct muj_projection {
     float clip[4];                  /* with has_clip, what has a negative distance from this plane is outside */
 } muj_projection;
 
-/* Vertices in 1/256 pixel, as they are and snapped; snapped[0] is MUJ_OUTSIDE of those that need clipping. Each array has room
- * for a vector more. */
+/* Vertices in 1/256 pixel, as they are and snapped, side by side; the first of both is MUJ_OUTSIDE of those that need clipping.
+ * Each array has room for a vector more. */
 typedef struct muj_vertices {
     float *x, *y, *z;
-    int32_t *snapped[2];
+    int32_t (*snapped)[2];
 } muj_vertices;
 
 typedef struct muj_choice {

@@ -25,8 +25,8 @@ static void scalar_transform(const muj_projection *projection, const float *posi
         if (projection->has_clip)
             inside = inside && (clip[0] * at[0] + clip[1] * at[1]) + (clip[2] * at[2] + clip[3]) >= 0;
         out->x[i] = x, out->y[i] = y, out->z[i] = z;
-        out->snapped[0][i] = inside ? (int32_t)rintf(x) : MUJ_OUTSIDE;
-        out->snapped[1][i] = inside ? (int32_t)rintf(y) : 0;
+        out->snapped[i][0] = inside ? (int32_t)rintf(x) : MUJ_OUTSIDE;
+        out->snapped[i][1] = inside ? (int32_t)rintf(y) : 0;
     }
 }
 

@@ -26,6 +26,12 @@ _AS_THEY_ARE = (
     *("texid", "texuniform", "texrepeat"),  # of versions whose geoms have them
 )
 _OTHER_NAMES = {"modelrbound": "rbound"}
+# What is found of these fields of MuJoCo's geoms stays as long as they do, and the model
+_DECIDING = (
+    *("type", "objtype", "dataid", "objid", "matid", "texid", "texuniform", "texrepeat"),
+    *("castshadow", "modelrbound"),
+)
+_FOUND = ("objid", "texid", "texuniform", "texrepeat", "castshadow", "rbound")
 
 
 _Row = list[float]
@@ -43,7 +49,11 @@ class SceneView:
         self.scene = scene
         self._geoms = view_geoms(scene)
         self._lights = view_lights(scene)
+        self._words = _words(self._geoms)
+        self._labels = self._geoms["label"]
         self._columns = _columns(self._geoms.dtype)
+        self._deciding = _words_of(self._geoms.dtype, _DECIDING)
+        self._found: tuple[Any, ...] = ()  # a model, what decided, and what was found
         self._lit: tuple[Any, ...] = ()  # what lights were last, and what was made of them
 
     def objects_of(self, numbers: np.ndarray) -> np.ndarray:
@@ -63,8 +73,18 @@ class SceneView:
 
     def geoms(self, model: Model) -> np.ndarray:
         """Return the geoms as the core reads them."""
-        from_ = self._geoms[: self.scene.ngeom]
-        out = _words(from_).take(self._columns, axis=1).view(GEOM)[:, 0]
+        words = self._words[: self.scene.ngeom]
+        out = words.take(self._columns, axis=1)
+        memory = model, words.take(self._deciding, axis=1).tobytes()
+        if self._found[:-1] != memory:
+            self._find_rest(model, out.view(GEOM)[:, 0])
+            self._found = (*memory, out.take(_FOUND_WORDS, axis=1))
+        out[:, _FOUND_WORDS] = self._found[-1]
+        return out.view(GEOM)[:, 0]
+
+    def _find_rest(self, model: Model, out: np.ndarray) -> None:
+        """Set what geoms do not say as they are."""
+        from_ = self._geoms[: len(out)]
         names = from_.dtype.names or ()
         out["castshadow"] = from_["castshadow"] if "castshadow" in names else 1
         out["rbound"][from_["objtype"] != _GEOM] = -1
@@ -80,11 +100,10 @@ class SceneView:
             out["texid"][by_material] = model.texids[chosen]
             out["texuniform"][by_material] = model.texuniforms[chosen]
             out["texrepeat"][by_material] = model.texrepeats[chosen]
-        return out
 
     def warn_of_labels(self) -> None:
         """Warn if a geom has a label, since text is not drawn."""
-        if self._geoms["label"][: self.scene.ngeom].any():
+        if self._labels[: self.scene.ngeom].any():
             warn("labels of geoms are not drawn")
 
     def lights(self, model: Model, *, none: bool = False) -> tuple[np.ndarray, float]:
@@ -182,6 +201,17 @@ class SceneView:
 def _words(records: np.ndarray) -> np.ndarray:
     """Return the memory of records as words of 4 bytes, a row each."""
     return records.view(np.int32).reshape(len(records), records.dtype.itemsize // 4)
+
+
+def _words_of(dtype: np.dtype, names: tuple[str, ...]) -> np.ndarray:
+    """Return the numbers of the words that hold those fields of a record that it has."""
+    fields = [dtype.fields[name][:2] for name in names if name in (dtype.names or ())]
+    return np.concatenate(
+        [offset // 4 + np.arange(-(-kind.itemsize // 4)) for kind, offset in fields]
+    )
+
+
+_FOUND_WORDS = _words_of(GEOM, _FOUND)
 
 
 def _columns(dtype: np.dtype) -> np.ndarray:

@@ -13,24 +13,27 @@
 #include "e3d_drawing.h"
 #include "extras/drawing/boxes.h"
 
-enum { FACES_AT_A_TIME = 256,
-       STACK = 64 };
-
-typedef struct crossings {
-    const double *places;
-    const int32_t *faces, *parts;
-    size_t count;
-    double thickness;
-    drw_boxes boxes;
-    e3d_array *chunks; /* of e3d_crossing */
-} crossings;
+enum { FOURS_AT_A_TIME = 64,
+       STACK = 3 * DRW_LEVELS + 1 };
 
 typedef struct triangle {
     double corners[3][3], normal[3];
+    int32_t vertices[3], face, part;
     int is_flat; /* it has an area */
 } triangle;
 
+typedef struct crossings {
+    double thickness;
+    int has_parts;
+    drw_boxes boxes;
+    triangle *triangles; /* in the order of the boxes */
+    e3d_array *chunks;   /* of e3d_crossing */
+} crossings;
+
 static double dot(const double *a, const double *b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+
+static double less(double a, double b) { return b < a ? b : a; }
+static double more(double a, double b) { return b > a ? b : a; }
 
 static void cross(const double *a, const double *b, double *out)
 {
@@ -38,12 +41,13 @@ static void cross(const double *a, const double *b, double *out)
         out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-static triangle read(const crossings *job, int32_t face)
+static triangle read(const double *places, const int32_t *faces, const int32_t *parts, int32_t face)
 {
-    triangle t;
+    triangle t = {.face = face, .part = parts ? parts[face] : 0};
     double u[3], v[3];
+    memcpy(t.vertices, faces + 3 * (size_t)face, sizeof t.vertices);
     for (int c = 0; c < 3; c++)
-        memcpy(t.corners[c], job->places + 3 * (size_t)job->faces[3 * (size_t)face + (size_t)c], sizeof t.corners[c]);
+        memcpy(t.corners[c], places + 3 * (size_t)t.vertices[c], sizeof t.corners[c]);
     for (int k = 0; k < 3; k++) {
         u[k] = t.corners[1][k] - t.corners[0][k];
         v[k] = t.corners[2][k] - t.corners[0][k];
@@ -54,6 +58,11 @@ static triangle read(const crossings *job, int32_t face)
     for (int k = 0; k < 3; k++)
         t.normal[k] /= length;
     return t;
+}
+
+static int is_on_one_side(const double away[3])
+{
+    return (away[0] >= 0 && away[1] >= 0 && away[2] >= 0) || (away[0] <= 0 && away[1] <= 0 && away[2] <= 0);
 }
 
 /* Finds the two points in which a triangle's border meets the plane of another; 0 if there are not two. */
@@ -68,7 +77,8 @@ static int meet(const triangle *t, const triangle *plane, double thickness, doub
         away[c] = dot(plane->normal, from);
         away[c] = fabs(away[c]) <= thickness ? 0 : away[c];
     }
-    if (away[0] == 0 && away[1] == 0 && away[2] == 0)
+    int zeros = (away[0] == 0) + (away[1] == 0) + (away[2] == 0);
+    if (zeros == 3 || (zeros < 2 && is_on_one_side(away)))
         return 0;
     for (int c = 0; c < 3; c++) {
         const double *a = t->corners[c], *b = t->corners[(c + 1) % 3];
@@ -104,11 +114,42 @@ static int find(const triangle *a, const triangle *b, double thickness, double *
     return square > thickness * thickness;
 }
 
-static int cross_pair(const crossings *job, const triangle *one, int32_t face, int32_t other, e3d_array *out)
+/* Whether the boxes of two triangles, with a margin, meet. */
+static int are_near(const triangle *a, const triangle *b, double margin)
 {
-    e3d_crossing made = {{face, other}, {0}};
-    triangle second = read(job, other);
-    if (!find(one, &second, job->thickness, made.ends))
+    int near = 1;
+    for (int k = 0; k < 3; k++) {
+        double low[2], high[2];
+        for (int i = 0; i < 2; i++) {
+            const triangle *t = i ? b : a;
+            low[i] = less(less(t->corners[0][k], t->corners[1][k]), t->corners[2][k]) - margin;
+            high[i] = more(more(t->corners[0][k], t->corners[1][k]), t->corners[2][k]) + margin;
+        }
+        near &= (low[0] <= high[1]) & (low[1] <= high[0]);
+    }
+    return near;
+}
+
+/* Without parts, triangles with a common side don't cross. */
+static int may_cross(const crossings *job, const triangle *a, const triangle *b)
+{
+    if (job->has_parts)
+        return a->part != b->part;
+    int shared = 0;
+    for (int k = 0; k < 3; k++)
+        shared += (a->vertices[k] == b->vertices[0]) + (a->vertices[k] == b->vertices[1]) + (a->vertices[k] == b->vertices[2]);
+    return shared < 2;
+}
+
+static int cross_pair(const crossings *job, const triangle *a, const triangle *b, e3d_array *out)
+{
+    if (a->face > b->face) {
+        const triangle *first = b;
+        b = a;
+        a = first;
+    }
+    e3d_crossing made = {{a->face, b->face}, {0}};
+    if (!may_cross(job, a, b) || !find(a, b, job->thickness, made.ends) || !are_near(a, b, job->thickness))
         return 1;
     if (!e3d_array_reserve(out, out->count + 1, sizeof made))
         return 0;
@@ -116,45 +157,49 @@ static int cross_pair(const crossings *job, const triangle *one, int32_t face, i
     return 1;
 }
 
-/* Without parts, triangles with a common side don't cross. */
-static int may_cross(const crossings *job, int32_t a, int32_t b)
+/* Crosses the triangles of two fours, or those of one with each other. */
+static int cross_fours(const crossings *job, size_t one, const drw_four own[4], size_t other, e3d_array *out)
 {
-    if (job->parts)
-        return job->parts[a] != job->parts[b];
-    int shared = 0;
-    for (size_t k = 0; k < 9; k++)
-        shared += job->faces[3 * (size_t)a + k / 3] == job->faces[3 * (size_t)b + k % 3];
-    return shared < 2;
+    for (size_t lane = 0; lane < 4; lane++) {
+        int near = drw_fours_meet(&own[lane], &job->boxes.levels[0][other]);
+        near &= one == other ? 14 << lane : 15;
+        for (size_t k = 0; near >> k; k++)
+            if (near >> k & 1 && !cross_pair(job, &job->triangles[4 * one + lane], &job->triangles[4 * other + k], out))
+                return 0;
+    }
+    return 1;
 }
 
-static int cross_face(const crossings *job, int32_t face, e3d_array *out)
+/* Crosses the triangles of a four with those that stand behind them. */
+static int cross_four(const crossings *job, size_t one, e3d_array *out)
 {
+    const drw_boxes *boxes = &job->boxes;
     struct {
         int level;
-        size_t box;
+        size_t four;
     } stack[STACK];
-    int top = 0, fits = 1;
-    drw_box own = drw_box_of(job->places, job->faces + 3 * (size_t)face, job->thickness);
-    triangle one = read(job, face);
-    stack[top].level = job->boxes.depth - 1;
-    stack[top++].box = 0;
-    while (top && fits) {
+    int top = 0;
+    drw_four around = drw_around(&boxes->levels[0][one]), own[4];
+    for (int lane = 0; lane < 4; lane++)
+        own[lane] = drw_one_of(&boxes->levels[0][one], lane);
+    stack[top].level = boxes->depth - 1;
+    stack[top++].four = 0;
+    while (top) {
         int level = stack[--top].level;
-        size_t box = stack[top].box;
-        if (!drw_boxes_meet(&own, &job->boxes.levels[level][box]))
-            continue;
+        size_t four = stack[top].four;
         if (level == 0) {
-            int32_t other = job->boxes.items[box];
-            if (other > face && may_cross(job, face, other))
-                fits = cross_pair(job, &one, face, other, out);
+            if (!cross_fours(job, one, own, four, out))
+                return 0;
             continue;
         }
-        for (size_t k = 0; k < 2; k++) {
-            stack[top].level = level - 1;
-            stack[top++].box = 2 * box + k;
-        }
+        int near = drw_fours_meet(&around, &boxes->levels[level][four]);
+        for (size_t k = 0; k < 4; k++)
+            if (near >> k & 1 && (4 * four + k + 1) << 2 * (level - 1) > one) {
+                stack[top].level = level - 1;
+                stack[top++].four = 4 * four + k;
+            }
     }
-    return fits;
+    return 1;
 }
 
 static int by_faces(const void *a, const void *b)
@@ -171,12 +216,10 @@ static void cross_chunk(void *argument, int chunk)
     crossings *job = argument;
     e3d_fpenv saved = e3d_fpenv_enter();
     e3d_array *out = &job->chunks[chunk];
-    size_t first = (size_t)chunk * FACES_AT_A_TIME, end = first + FACES_AT_A_TIME;
+    size_t first = (size_t)chunk * FOURS_AT_A_TIME, end = first + FOURS_AT_A_TIME;
     int fits = 1;
-    for (size_t face = first; face < end && face < job->count && fits; face++)
-        fits = cross_face(job, (int32_t)face, out);
-    if (out->count > 1)
-        qsort(out->data, out->count, sizeof(e3d_crossing), by_faces);
+    for (size_t four = first; four < end && four < job->boxes.fours[0] && fits; four++)
+        fits = cross_four(job, four, out);
     if (!fits)
         out->count = SIZE_MAX;
     e3d_fpenv_leave(saved);
@@ -195,11 +238,24 @@ static e3d_status gather(const crossings *job, size_t chunks, e3d_crossing **out
         return E3D_OUT_OF_MEMORY;
     *out = all;
     *found = total;
+    e3d_crossing *end = all;
     for (size_t chunk = 0; chunk < chunks; chunk++) {
         if (job->chunks[chunk].count)
-            memcpy(all, job->chunks[chunk].data, job->chunks[chunk].count * sizeof *all);
-        all += job->chunks[chunk].count;
+            memcpy(end, job->chunks[chunk].data, job->chunks[chunk].count * sizeof *all);
+        end += job->chunks[chunk].count;
     }
+    qsort(all, total, sizeof *all, by_faces);
+    return E3D_OK;
+}
+
+static e3d_status prepare(crossings *job, const double *places, const int32_t *faces, const int32_t *parts, size_t count)
+{
+    e3d_status status = drw_boxes_build(&job->boxes, places, faces, count, job->thickness);
+    job->triangles = status == E3D_OK ? malloc(4 * job->boxes.fours[0] * sizeof *job->triangles) : NULL;
+    if (!job->triangles)
+        return E3D_OUT_OF_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        job->triangles[i] = read(places, faces, parts, job->boxes.items[i]);
     return E3D_OK;
 }
 
@@ -207,10 +263,11 @@ e3d_status e3d_cross_surfaces(const double *places, const int32_t *faces, const 
                               int threads, e3d_crossing **out, size_t *found)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
-    size_t chunks = (count + FACES_AT_A_TIME - 1) / FACES_AT_A_TIME;
-    crossings job = {.places = places, .faces = faces, .parts = parts, .count = count, .thickness = thickness};
+    crossings job = {.thickness = thickness, .has_parts = parts != NULL};
+    e3d_status status = prepare(&job, places, faces, parts, count);
+    size_t chunks = status == E3D_OK ? (job.boxes.fours[0] + FOURS_AT_A_TIME - 1) / FOURS_AT_A_TIME : 0;
     job.chunks = calloc(chunks + 1, sizeof *job.chunks);
-    e3d_status status = job.chunks ? drw_boxes_build(&job.boxes, places, faces, count, thickness) : E3D_OUT_OF_MEMORY;
+    status = job.chunks ? status : E3D_OUT_OF_MEMORY;
     if (status == E3D_OK) {
         e3d_pool_share(threads, (int)chunks, cross_chunk, &job);
         status = gather(&job, chunks, out, found);
@@ -218,6 +275,7 @@ e3d_status e3d_cross_surfaces(const double *places, const int32_t *faces, const 
     for (size_t chunk = 0; job.chunks && chunk < chunks; chunk++)
         e3d_array_free(&job.chunks[chunk]);
     free(job.chunks);
+    free(job.triangles);
     drw_boxes_free(&job.boxes);
     e3d_fpenv_leave(saved);
     return status;

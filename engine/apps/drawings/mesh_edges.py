@@ -69,6 +69,8 @@ def _open_what_crosses_itself(
 ) -> None:
     """Let bodies that run through themselves enclose nothing: parts of them may be inside out."""
     pairs = native.cross_surfaces(positions, faces, None, thickness_of(positions), 1)["faces"]
+    if not len(pairs):
+        return
     bodies = native.find_bodies(faces, len(positions))
     first, second = bodies[pairs].T
     enclosing[np.isin(bodies, first[first == second])] = 0

@@ -21,8 +21,6 @@ PIECE = np.dtype([("line", np.int32), ("is_hidden", np.int32), ("from", np.float
 SIDE = np.dtype([(name, np.int32) for name in ("low", "high", "first", "second", "uses")])
 #: e3d_crossing
 CROSSING = np.dtype([("faces", np.int32, 2), ("ends", np.float64, 6)])
-#: e3d_stroke
-STROKE = np.dtype([("ends", np.float64, (2, 2)), ("part", np.int32), ("kind", np.int8), ("is_hidden", np.int8)], align=True)
 #: Columns of places on the drawing.
 SHEET = E3D_SHEET
 
@@ -289,8 +287,9 @@ def draw_view(
     const int32_t[::1] other_parts not None, size_t cut, const double[:, ::1] places, const int32_t[:, ::1] faces,
     const double[:, ::1] clip_from_world not None, size, eye, bint is_parallel, bint is_outside, const double[:, ::1] planes not None,
     double thickness, double nearness, int outline, int threads,
-) -> NDArray[Any]:
-    """Return the strokes (S,) of `STROKE` of a view: of edges and other lines (N, 2, 3), before and behind triangles.
+) -> tuple[NDArray[np.float64], NDArray[np.int8], NDArray[np.int32], NDArray[np.bool_]]:
+    """Return the strokes of a view: their ends (S, 2, 2), kinds, parts, and which are hidden. They are of edges and other lines
+    (N, 2, 3), before and behind triangles.
 
     Triangles (F, 3) of vertices (V, 3) hide, if they are given, else those of the edges.
     The first plane (K, 4) of the view leaves out what is below it of edges and of the first ``cut`` other lines, the
@@ -326,9 +325,26 @@ def draw_view(
     with nogil:
         status = e3d_draw_view(&edges.c, &others, &hiders, &view, threads, &strokes, &count)
     check(status)
-    return taken(<void **>&strokes, count, STROKE)
+    return columns_of(strokes, count)
 
 
-require(STROKE.itemsize == sizeof(e3d_stroke), "the records differ from the core's")
+cdef tuple columns_of(e3d_stroke *strokes, size_t count):
+    """Copy what C allocated, which is freed, into an array for each member."""
+    cdef double[:, :, ::1] ends
+    cdef int8_t[::1] kinds
+    cdef int32_t[::1] parts
+    cdef uint8_t[::1] hidden
+    cdef size_t i
+    try:
+        columns = np.empty((count, 2, 2)), np.empty(count, np.int8), np.empty(count, np.int32), np.empty(count, np.uint8)
+        ends, kinds, parts, hidden = columns
+        for i in range(count):
+            memcpy(&ends[i, 0, 0], strokes[i].ends, sizeof(strokes[i].ends))
+            kinds[i], parts[i], hidden[i] = strokes[i].kind, strokes[i].part, strokes[i].is_hidden
+    finally:
+        free(strokes)
+    return *columns[:3], columns[3].view(bool)
+
+
 require(PIECE.itemsize == sizeof(e3d_piece) and SIDE.itemsize == sizeof(e3d_side) and CROSSING.itemsize == sizeof(e3d_crossing),
         "the records differ from the core's")

@@ -24,8 +24,9 @@ typedef struct hiding {
 typedef struct sight {
     const double *places; /* of both ends */
     double ends[4], inverse_w[2], least;
-    drw_outside outside; /* its last step in depth */
-    int has_cells;       /* it touches several cells */
+    drw_outside opposite; /* of its box */
+    int32_t nearer;       /* triangles from this one on are behind it */
+    int has_cells;        /* it touches several cells */
 } sight;
 
 static double less(double a, double b) { return b < a ? b : a; }
@@ -102,7 +103,8 @@ static int find_sight(const hiding *job, int32_t number, sight *line)
     if (!(length > job->lines->least * MOST_NOTHING) || !isfinite(length))
         return 0;
     line->least = less(job->lines->least / length, MOST_NOTHING);
-    line->outside = drw_outside_of(&job->hiders, line->ends, 2, 0, more(sheet[E3D_SHEET_DEPTH], sheet[E3D_SHEET + E3D_SHEET_DEPTH]));
+    line->opposite = drw_opposite(drw_outside_of(&job->hiders, line->ends, 2, 0));
+    line->nearer = job->hiders.nearer[drw_step_of(&job->hiders, more(sheet[E3D_SHEET_DEPTH], sheet[E3D_SHEET + E3D_SHEET_DEPTH]))];
     return 1;
 }
 
@@ -111,11 +113,8 @@ static int find_sight(const hiding *job, int32_t number, sight *line)
 static int find_in_cell(const drw_hiders *all, const sight *line, int32_t number, size_t cell, drw_scratch *scratch)
 {
     const int32_t *end = all->grid.items + all->grid.starts[cell + 1];
-    for (const int32_t *item = all->grid.items + all->grid.starts[cell]; item < end; item++) {
-        const drw_outside *outside = &all->outsides[*item];
-        if (outside->step > line->outside.step)
-            return 0;
-        if (!drw_outsides_meet(outside, &line->outside))
+    for (const int32_t *item = all->grid.items + all->grid.starts[cell]; item < end && *item < line->nearer; item++) {
+        if (!drw_meets(all->outsides[*item], line->opposite))
             continue;
         const drw_plane *by = &all->planes[*item];
         double away[2] = {distance(by, line->places), distance(by, line->places + 3)};

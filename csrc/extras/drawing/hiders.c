@@ -5,32 +5,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/large_pages.h"
+
 /* The search is so fast beside the making of lists that cells are large. */
 #define CELLS_A_TRIANGLE 0.1
-
-/* Depths are told apart by so many steps. */
-enum { STEPS = 2048 };
 
 static double less(double a, double b) { return b < a ? b : a; }
 static double more(double a, double b) { return b > a ? b : a; }
 
-static int32_t step_of(const drw_hiders *all, double depth)
+int32_t drw_step_of(const drw_hiders *all, double depth)
 {
     double step = (depth - all->nearest) * all->steps_per_depth;
-    return step < STEPS - 1 ? step > 0 ? (int32_t)step : 0 : STEPS - 1;
+    return step < DRW_STEPS - 1 ? step > 0 ? (int32_t)step : 0 : DRW_STEPS - 1;
 }
 
-drw_outside drw_outside_of(const drw_hiders *all, const double *at, int corners, double reach, double depth)
+drw_outside drw_outside_of(const drw_hiders *all, const double *at, int corners, double reach)
 {
-    drw_outside made = {.step = step_of(all, depth)};
+    drw_outside made;
     for (int axis = 0; axis < 2; axis++) {
         double low = at[axis], high = low;
         for (int k = 1; k < corners; k++) {
             low = less(low, at[2 * k + axis]);
             high = more(high, at[2 * k + axis]);
         }
-        made.low[axis] = (float)((low - reach - all->grid.low[axis]) * all->grid.cells_per_unit[axis]);
-        made.high[axis] = (float)((high + reach - all->grid.low[axis]) * all->grid.cells_per_unit[axis]);
+        made[axis] = (float)((low - reach - all->grid.low[axis]) * all->grid.cells_per_unit[axis]);
+        made[2 + axis] = -(float)((high + reach - all->grid.low[axis]) * all->grid.cells_per_unit[axis]);
     }
     return made;
 }
@@ -86,7 +85,7 @@ typedef struct chosen {
 } chosen;
 
 /* Chooses triangles, and finds their range of depths. */
-static void choose(drw_hiders *all, chosen *out)
+static void choose_faces(drw_hiders *all, chosen *out)
 {
     double farthest = -INFINITY;
     all->nearest = INFINITY;
@@ -101,29 +100,31 @@ static void choose(drw_hiders *all, chosen *out)
         out->faces[out->count++] = (int32_t)face;
     }
     double range = farthest - all->nearest;
-    all->steps_per_depth = range > 0 ? STEPS / range : 0;
+    all->steps_per_depth = range > 0 ? DRW_STEPS / range : 0;
 }
 
 /* Prepares the triangles that the grid lists, in order of depth. */
 static e3d_status sort(drw_hiders *all, chosen *from)
 {
-    size_t starts[STEPS + 1] = {0}, room = all->count + 1;
+    size_t room = all->count + 1;
     all->corners = malloc(6 * room * sizeof *all->corners);
-    all->outsides = malloc(room * sizeof *all->outsides);
+    all->outsides = e3d_large_memory(room * sizeof *all->outsides);
     all->planes = malloc(room * sizeof *all->planes);
-    if (!all->corners || !all->outsides || !all->planes)
+    all->nearer = calloc(DRW_STEPS + 1, sizeof *all->nearer);
+    if (!all->corners || !all->outsides || !all->planes || !all->nearer)
         return E3D_OUT_OF_MEMORY;
+    int32_t *starts = all->nearer; /* where each step begins, and in the end where it ends */
     for (size_t i = 0; i < all->count; i++)
-        starts[step_of(all, least_depth(all->given, (size_t)from->faces[from->listed[i]])) + 1]++;
-    for (size_t step = 0; step < STEPS; step++)
+        starts[drw_step_of(all, least_depth(all->given, (size_t)from->faces[from->listed[i]])) + 1]++;
+    for (size_t step = 0; step < DRW_STEPS; step++)
         starts[step + 1] += starts[step];
     for (size_t i = 0; i < all->count; i++) {
         size_t face = (size_t)from->faces[from->listed[i]];
         const double *corner = from->corners + 6 * (size_t)from->listed[i];
         double depth = least_depth(all->given, face);
-        size_t place = starts[step_of(all, depth)]++;
+        size_t place = (size_t)starts[drw_step_of(all, depth)]++;
         memcpy(all->corners + 6 * place, corner, 6 * sizeof *corner);
-        all->outsides[place] = drw_outside_of(all, corner, 3, all->given->reach, depth);
+        all->outsides[place] = drw_outside_of(all, corner, 3, all->given->reach);
         all->planes[place] = plane_of(all->given, face);
     }
     return E3D_OK;
@@ -158,7 +159,7 @@ e3d_status drw_hiders_prepare(drw_hiders *all, const e3d_hiders *given, const e3
     *all = (drw_hiders){.given = given};
     if (status == E3D_OK) {
         drw_measure(ends, lines->count, some.low, some.high);
-        choose(all, &some);
+        choose_faces(all, &some);
         status = list(all, &some, ends, lines);
     }
     free(ends);
@@ -174,4 +175,5 @@ void drw_hiders_free(drw_hiders *all)
     free(all->corners);
     free(all->outsides);
     free(all->planes);
+    free(all->nearer);
 }

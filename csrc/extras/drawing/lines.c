@@ -7,6 +7,9 @@
 /* Triangles are seen from the front if the angle to the line of sight has at least this sine. */
 #define EDGE_ON 1e-6
 
+/* More than the share of its terms by which a sum of a few of them is wrong. */
+#define ROUNDING 0x1p-48
+
 enum { SIDES = 4 };
 
 /* The planes that cut lines: what is kept has a x + b y + c z + d >= 0. */
@@ -14,6 +17,32 @@ typedef struct cutter {
     double planes[E3D_VIEW_PLANES + SIDES][4];
     size_t count;
 } cutter;
+
+/* Leaves out planes that all places are surely on the inner side of. */
+static void forget_needless(cutter *by, const e3d_surface *of)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, nothing = 0;
+    for (size_t i = 0; i < 3 * of->vertex_count; i += 3)
+        for (size_t k = 0; k < 3; k++) {
+            double at = of->places[i + k];
+            low[k] = at < low[k] ? at : low[k];
+            high[k] = at > high[k] ? at : high[k];
+            nothing += at * 0; /* no number if the place is none */
+        }
+    size_t kept = 0;
+    for (size_t i = 0; i < by->count; i++) {
+        const double *plane = by->planes[i];
+        double least = plane[3] + nothing, size = fabs(plane[3]);
+        for (int k = 0; k < 3; k++) {
+            double a = plane[k] * low[k], b = plane[k] * high[k];
+            least += a < b ? a : b;
+            size += fabs(a) > fabs(b) ? fabs(a) : fabs(b);
+        }
+        if (!(least > size * ROUNDING))
+            memmove(by->planes[kept++], plane, sizeof by->planes[0]);
+    }
+    by->count = kept;
+}
 
 static cutter cutter_of(const e3d_view *view, size_t first)
 {
@@ -63,21 +92,24 @@ static int add(e3d_array *lines, const cutter *by, const double *a, const double
     return 1;
 }
 
-static int8_t facing_of(const e3d_edges *edges, size_t face, const double eye[4])
+static double length_of(const double v[3]) { return sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]); }
+
+static int8_t facing_of(const double *normal, const double to_eye[3], double length)
 {
-    const double *normal = edges->normals + 3 * face, *place = edges->of.places + 3 * (size_t)edges->of.faces[3 * face];
-    double to_eye[3];
-    for (int k = 0; k < 3; k++)
-        to_eye[k] = eye[k] - place[k] * eye[3];
-    double sine = ((normal[0] * to_eye[0] + normal[1] * to_eye[1]) + normal[2] * to_eye[2]) /
-                  sqrt((to_eye[0] * to_eye[0] + to_eye[1] * to_eye[1]) + to_eye[2] * to_eye[2]);
+    double sine = ((normal[0] * to_eye[0] + normal[1] * to_eye[1]) + normal[2] * to_eye[2]) / length;
     return (int8_t)((sine > EDGE_ON) - (sine < -EDGE_ON));
 }
 
 void drw_find_facing(const e3d_edges *edges, const double eye[4], int8_t *facing)
 {
-    for (size_t face = 0; face < edges->of.face_count; face++)
-        facing[face] = facing_of(edges, face, eye);
+    const double *normal = edges->normals, length = length_of(eye);
+    for (size_t face = 0; face < edges->of.face_count && eye[3] == 0; face++, normal += 3)
+        facing[face] = facing_of(normal, eye, length);
+    for (size_t face = 0; face < edges->of.face_count && eye[3] != 0; face++, normal += 3) {
+        const double *place = edges->of.places + 3 * (size_t)edges->of.faces[3 * face];
+        double to_eye[3] = {eye[0] - place[0] * eye[3], eye[1] - place[1] * eye[3], eye[2] - place[2] * eye[3]};
+        facing[face] = facing_of(normal, to_eye, length_of(to_eye));
+    }
 }
 
 uint8_t drw_is_back(const e3d_edges *edges, const int8_t *facing, int32_t face)
@@ -103,7 +135,9 @@ e3d_status drw_find_lines(const e3d_edges *edges, const int8_t *facing, const e3
                           e3d_array *lines)
 {
     cutter all = cutter_of(view, 0), but_first = cutter_of(view, 1);
-    int fits = add_edges(edges, facing, view, &all, lines);
+    cutter of_edges = all;
+    forget_needless(&of_edges, &edges->of);
+    int fits = add_edges(edges, facing, view, &of_edges, lines);
     for (size_t i = 0; fits && i < others->count; i++) {
         const double *ends = others->ends + 6 * i;
         fits = add(lines, i < others->cut ? &all : &but_first, ends, ends + 3, others->kinds[i], others->parts[i], 0);

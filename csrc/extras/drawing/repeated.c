@@ -4,14 +4,17 @@
 #include <stdlib.h>
 
 #include "base/fpenv.h"
+#include "base/large_pages.h"
 #include "e3d_drawing.h"
 #include "extras/drawing/grid.h"
+#include "extras/drawing/outsides.h"
 #include "extras/drawing/stretches.h"
 
 #define CELLS_A_SEGMENT 0.5
 
 typedef struct repetition {
     const double *segments;
+    drw_outside *outsides; /* (count,): their boxes with the tolerance */
     double tolerance;
     drw_grid grid;
 } repetition;
@@ -64,13 +67,14 @@ static int find_stretches(const void *argument, int32_t number, drw_scratch *scr
     if (!(own.length > 0) || !isfinite(own.length))
         return 0;
     *least = less(job->tolerance / own.length, 0.5);
+    drw_outside opposite = drw_opposite(job->outsides[number]);
     drw_block block = drw_block_of(grid, own.ends, 2);
     for (int32_t row = block.rows.first; row <= block.rows.last; row++) {
         drw_span columns = drw_columns(grid, own.ends, 2, block, row);
         for (int32_t column = columns.first; column <= columns.last; column++) {
             size_t cell = (size_t)row * (size_t)grid->columns + (size_t)column;
-            for (int32_t i = grid->starts[cell]; i < grid->starts[cell + 1]; i++)
-                if (grid->items[i] < number && drw_is_new(scratch, grid->items[i], number) &&
+            for (int32_t i = grid->starts[cell]; i < grid->starts[cell + 1] && grid->items[i] < number; i++)
+                if (drw_meets(job->outsides[grid->items[i]], opposite) && drw_is_new(scratch, grid->items[i], number) &&
                     is_repeated(&own, job->segments + 4 * (size_t)grid->items[i], job->tolerance, &within) &&
                     drw_add(scratch, within.from, within.to, *least))
                     return 1;
@@ -79,15 +83,26 @@ static int find_stretches(const void *argument, int32_t number, drw_scratch *scr
     return 1;
 }
 
+/* The box of a segment with a margin beyond the tolerance that rounding stays below. */
+static drw_outside outside_of(const double *ends, double tolerance)
+{
+    double size = (fabs(ends[0]) + fabs(ends[1])) + (fabs(ends[2]) + fabs(ends[3])), margin = tolerance + (tolerance + size) * 0x1p-20;
+    return (drw_outside){(float)(less(ends[0], ends[2]) - margin), (float)(less(ends[1], ends[3]) - margin),
+                         -(float)(more(ends[0], ends[2]) + margin), -(float)(more(ends[1], ends[3]) + margin)};
+}
+
 e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolerance, int threads, e3d_piece **pieces, size_t *found)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
     repetition job = {.segments = segments, .tolerance = tolerance};
     double low[2], high[2];
     int32_t *order = malloc((count + 1) * sizeof *order);
-    e3d_status status = order ? E3D_OK : E3D_OUT_OF_MEMORY;
-    for (size_t i = 0; order && i < count; i++)
+    job.outsides = e3d_large_memory((count + 1) * sizeof *job.outsides);
+    e3d_status status = order && job.outsides ? E3D_OK : E3D_OUT_OF_MEMORY;
+    for (size_t i = 0; status == E3D_OK && i < count; i++) {
         order[i] = (int32_t)i;
+        job.outsides[i] = outside_of(segments + 4 * i, tolerance);
+    }
     drw_measure(segments, count, low, high);
     drw_items items = {segments, 2};
     size_t kept = count;
@@ -99,6 +114,7 @@ e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolera
         status = drw_cut_lines(find_stretches, &job, count, count, threads, pieces, found);
     drw_grid_free(&job.grid);
     free(order);
+    free(job.outsides);
     e3d_fpenv_leave(saved);
     return status;
 }

@@ -25,14 +25,17 @@ def are_before(bounds: NDArray[np.float64], planes: NDArray[np.float64]) -> bool
     """Return whether a box (2, 3) is surely wholly on the side of planes (K, 4) that is kept."""
     low, high = bounds.tolist()
     for *normal, offset in planes.tolist():
-        terms = [(n * a, n * b) for n, a, b in zip(normal, low, high, strict=True)]
-        least = sum(map(min, terms)) + offset
-        size = sum(max(abs(a), abs(b)) for a, b in terms) + abs(offset)
-        if not least > _ROUNDING * size:
+        least = size = 0.0
+        for share, a, b in zip(normal, low, high, strict=True):
+            ends = share * a, share * b
+            least += min(ends)
+            size += max(map(abs, ends))
+        if not least + offset > _ROUNDING * (size + abs(offset)):
             return False
     return True
 
 
+@np.errstate(all="ignore")
 def clip_triangles(
     places: NDArray[np.float64], faces: NDArray[np.int32], planes: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:

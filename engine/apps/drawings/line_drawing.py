@@ -9,6 +9,7 @@ import os
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..._native.loaders import frozen
 from ...base.angles import limited_angle
@@ -31,7 +32,7 @@ from .line_kinds import KINDS
 from .paper import Group, Page, Strokes
 from .pdf import pdf_of
 from .pieces import Pieces, find_pieces
-from .projections import projection_of
+from .projections import matrix_of, projection_onto
 from .styles import Layer, layers
 from .surfaces import surfaces_of
 from .svg import svg_of
@@ -236,13 +237,15 @@ def draw_lines(
 ) -> LineDrawing:
     """Return the drawing of a viewed scene for a camera and its pose, as `line_drawing` does."""
     angle = limited_angle(crease_angle, "crease_angle", np.pi, "from 0 to pi radians")
-    frame = _frame(view[0], size, scale, unit or viewed.unit)
+    camera, pose = view
+    matrix = matrix_of(camera, size)
+    frame = _frame(matrix, size, scale, unit or viewed.unit)
     surfaces, omitted = surfaces_of(viewed.scene, angle)
     for sentence in omitted:
         warn(sentence)
     pieces = find_pieces(
         surfaces,
-        projection_of(*view, frame, size),
+        projection_onto(frame, matrix, pose),
         intersections=intersections,
         threads=resolve_threads(threads),
     )
@@ -252,12 +255,11 @@ def draw_lines(
 
 
 def _frame(
-    camera: Camera, size: tuple[int, int], scale: float | None, unit: str | None
+    projection: NDArray[np.float64], size: tuple[int, int], scale: float | None, unit: str | None
 ) -> tuple[float, float]:
     """Return the size of the frame in millimetres."""
     if scale is None:
         return size[0] * PIXEL, size[1] * PIXEL
-    projection = np.asarray(camera.projection(size))
     if projection[3, :3].any():
         raise InvalidArgumentError("scale: only a parallel projection has one")
     factor = 2.0 * positive(scale, "scale") * millimetres(unit) * float(projection[3, 3])

@@ -60,7 +60,6 @@ class Pieces(NamedTuple):
         return float(np.sqrt(steps[:, 0] * steps[:, 0] + steps[:, 1] * steps[:, 1]).sum())
 
 
-@np.errstate(all="ignore")
 def find_pieces(
     surfaces: Surfaces,
     projection: Projection,
@@ -109,12 +108,13 @@ def find_pieces(
         OUTLINE,
         threads,
     )
-    return Pieces(found["ends"], found["kind"], found["part"], found["is_hidden"] != 0)
+    return Pieces(*found)
 
 
-def _is_beside(eye: NDArray[np.float64], bounds: NDArray[np.float64]) -> bool:
+@np.errstate(all="ignore")
+def _is_beside(eye: list[float], bounds: NDArray[np.float64]) -> bool:
     """Return whether a viewer is outside of a box."""
-    place = eye[:3] / eye[3]
+    place = np.divide(eye[:3], eye[3])
     return bool(((place < bounds[0]) | (place > bounds[1])).any())
 
 

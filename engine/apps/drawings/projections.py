@@ -6,12 +6,14 @@ the homogeneous point from which all is seen. All is float64: drawings are the s
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
+from ...base.linalg import single
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import Camera
 from ...model.scene.lenses.lens_camera import LensCamera
@@ -35,17 +37,19 @@ class Projection(NamedTuple):
     size: tuple[float, float]
     is_parallel: bool
 
-    def eye(self) -> NDArray[np.float64]:
+    def eye(self) -> list[float]:
         """Return the viewer's position and 1, or the direction to him and 0, up to a factor."""
         x, y, depth, w = self.clip_from_world.tolist()
         cofactors = (_determinant(*(row[:k] + row[k + 1 :] for row in (x, y, w))) for k in range(4))
         signed = [-one if k % 2 else one for k, one in enumerate(cofactors)]
-        largest = max(map(abs, signed))
-        eye = np.array(signed) / largest
+        largest = max(map(abs, signed)) or math.nan
+        eye = [one / largest for one in signed]
         if self.is_parallel:
             eye[3] = 0.0
-            return eye if float(linalg.dot(depth[:3], eye[:3])) < 0.0 else -eye
-        return eye if eye[3] > 0.0 else -eye
+            is_toward = single.dot(depth[:3], eye[:3]) < 0.0
+        else:
+            is_toward = eye[3] > 0.0
+        return eye if is_toward else [-one for one in eye]
 
     def on_paper(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return x, y, 1 / w and depth of places (N, 3) whose w is positive: (N, 4)."""
@@ -58,13 +62,12 @@ class Projection(NamedTuple):
     def planes(self, bounds: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the planes (K, 4) before which something is drawn, for a box (2, 3)."""
         _, _, depth, w = self.clip_from_world
-        found = [w + depth, w - depth]
-        if not self.is_parallel:
-            reach = np.abs(w[:3]) * np.abs(bounds).max(axis=0)
-            least = w.copy()
-            least[3] -= _LEAST_W * (float(reach.sum()) + abs(float(w[3])))
-            found.append(least)
-        return np.stack(found)
+        if self.is_parallel:
+            return np.array([w + depth, w - depth])
+        reach = np.abs(w[:3]) * np.abs(bounds).max(axis=0)
+        least = w.copy()
+        least[3] -= _LEAST_W * (float(reach.sum()) + abs(float(w[3])))
+        return np.array([w + depth, w - depth, least])
 
 
 def _determinant(a: list[float], b: list[float], c: list[float]) -> float:
@@ -75,22 +78,8 @@ def _determinant(a: list[float], b: list[float], c: list[float]) -> float:
     )
 
 
-def projection_of(
-    camera: Camera,
-    pose: NDArray[np.float64],
-    size: tuple[float, float],
-    pixels: tuple[int, int] | None = None,
-) -> Projection:
-    """Return the projection of a camera onto a frame in millimetres.
-
-    Parameters
-    ----------
-    camera : Camera
-    pose : (4, 4) float64
-        world-from-camera.
-    size : (float, float)
-    pixels : (int, int), optional
-        The picture's size, whose aspect the camera has; by default that of the frame.
+def matrix_of(camera: Camera, pixels: tuple[int, int]) -> NDArray[np.float64]:
+    """Return what a camera projects by, (4, 4), at the aspect of a picture of so many pixels.
 
     Raises
     ------
@@ -102,9 +91,24 @@ def projection_of(
             f"lines are drawn straight, so not through a {type(camera).__name__}: use a pinhole "
             "or a parallel camera, or draw a picture"
         )
-    shape = pixels or (max(round(size[0] * 1000), 1), max(round(size[1] * 1000), 1))
-    projection = np.array(camera.projection(shape), np.float64)
-    w = projection[3]
+    return np.asarray(camera.projection(pixels), np.float64)
+
+
+def projection_onto(
+    size: tuple[float, float], matrix: NDArray[np.float64], pose: NDArray[np.float64]
+) -> Projection:
+    """Return a projection onto a frame.
+
+    Parameters
+    ----------
+    size : (float, float)
+        Of the frame, in millimetres.
+    matrix : (4, 4) float64
+        As of `matrix_of`.
+    pose : (4, 4) float64
+        world-from-camera.
+    """
+    w = matrix[3]
     is_parallel = not w[:3].any()
-    projection = projection / (float(w[3]) if is_parallel else float(np.abs(w).max()))
-    return Projection(linalg.multiply(projection, linalg.inverse(pose)), size, is_parallel)
+    matrix = matrix / (float(w[3]) if is_parallel else float(np.abs(w).max()))
+    return Projection(linalg.multiply(matrix, linalg.inverse(pose)), size, is_parallel)

@@ -38,7 +38,7 @@ from .model_lines import section_lines
 from .paper import Group, Page, Strokes, Text
 from .pdf import text_width
 from .pieces import find_pieces
-from .projections import projection_of
+from .projections import matrix_of, projection_onto
 from .styles import FRAME, HATCHING, THIN
 from .surfaces import Surfaces, surfaces_of
 from .units import PAGES, millimetres, scale_text, usual_scale
@@ -185,7 +185,7 @@ class SheetPage:
         group = Group(f"view-{number + 1}", view.spec.name, x=x, y=y, clip=(width, height))
         pixels = view.rectangle.width, view.rectangle.height
         camera, pose, caps = self._camera(view)
-        projection = projection_of(camera, pose, (width, height), pixels)
+        projection = projection_onto((width, height), matrix_of(camera, pixels), pose)
         ids = {cap.node: part for part, cap in enumerate(caps, len(surfaces.names))}
         names = [*surfaces.names, *(self._name(node) for node in ids)]
         pieces = find_pieces(

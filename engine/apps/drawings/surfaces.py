@@ -6,7 +6,9 @@ node or one of its instances. What cannot be drawn is named.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from operator import is_
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -90,7 +92,6 @@ class Surfaces:
 _known: WeakKeyDictionary[Mesh, tuple[list[Any], Surfaces]] = WeakKeyDictionary()
 
 
-@np.errstate(all="ignore")
 def surfaces_of(scene: Scene, crease_angle: float) -> tuple[Surfaces, list[str]]:
     """Return what a scene shows, and a sentence for each node that is left out in part.
 
@@ -109,7 +110,7 @@ def surfaces_of(scene: Scene, crease_angle: float) -> tuple[Surfaces, list[str]]
             omitted.append(f"{node.name or 'a node'}: a line drawing has no points")
         arrays = arrays_of(mesh)
         poses = list(enumerate(_poses(node, thing)))
-        finite = [(number, pose) for number, pose in poses if np.isfinite(pose).all()]
+        finite = [(number, pose) for number, pose in poses if _is_finite(pose)]
         if len(finite) < len(poses):
             lost = len(poses) - len(finite)
             omitted.append(f"{node.name or 'a node'}: {lost} of its poses are not finite")
@@ -119,7 +120,7 @@ def surfaces_of(scene: Scene, crease_angle: float) -> tuple[Surfaces, list[str]]
     if not meshes:
         return Surfaces([], []), omitted
     first = meshes[0][0]
-    made_of = [crease_angle, names, *((arrays, pose) for _, arrays, pose in meshes)]
+    made_of = [crease_angle, names, *((arrays, pose.tolist()) for _, arrays, pose in meshes)]
     kept, surfaces = _known.get(first, ([], None))
     if surfaces is None or not _is_same(kept, made_of):
         surfaces = _surfaces(meshes, names, crease_angle)
@@ -132,13 +133,12 @@ def _is_same(one: list[Any], other: list[Any]) -> bool:
     if len(one) != len(other) or one[:2] != other[:2]:
         return False
     return all(
-        a.keys() == b.keys()
-        and all(a[name] is b[name] for name in a)
-        and (pose == other_pose).all()
+        pose == other_pose and a.keys() == b.keys() and all(map(is_, a.values(), map(b.get, a)))
         for (a, pose), (b, other_pose) in zip(one[2:], other[2:], strict=True)
     )
 
 
+@np.errstate(all="ignore")
 def _surfaces(
     meshes: list[tuple[Mesh, dict[str, Any], NDArray[np.float64]]],
     names: list[str],
@@ -149,6 +149,10 @@ def _surfaces(
         if id(mesh) not in known:
             known[id(mesh)] = mesh_edges(arrays, crease_angle)
     return Surfaces([(known[id(mesh)], pose) for mesh, _, pose in meshes], names)
+
+
+def _is_finite(pose: NDArray[np.float64]) -> bool:
+    return all(map(math.isfinite, pose.ravel().tolist()))
 
 
 def _poses(node: Node, thing: Any) -> Iterator[NDArray[np.float64]]:

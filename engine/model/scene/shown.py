@@ -45,4 +45,6 @@ def placing_poses(arrays: NodeArrays, slots: NDArray[np.int32]) -> NDArray[np.fl
 
 def placing_pose(node: Node) -> NDArray[np.float64]:
     """Return the world pose of what a node draws."""
-    return placing_poses(node._arrays, np.array([node._slot], np.int32))[0]
+    arrays, slot = node._arrays, node._slot
+    anchor = int(arrays.columns["anchor"][slot])
+    return np.eye(4) if anchor == slot else arrays.world_pose(slot if anchor < 0 else anchor)

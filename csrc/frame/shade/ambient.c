@@ -8,14 +8,24 @@
 #include "frame/pass/view.h"
 #include "frame/shade/ambient.h"
 
-/* Inlined for each `shift`, so that the compiler sees a constant. */
+/* The pixel of a sample, from the tile's first one on. */
+static ALWAYS_INLINE intptr_t pixel_of(int32_t sample, int32_t width, int shift)
+{
+    int32_t x = sample & (E3D_TILE - 1), y = sample >> E3D_TILE_SHIFT;
+    return (intptr_t)(y >> shift) * width + (x >> shift);
+}
+
+/* Inlined for each `shift`, so that the compiler sees a constant. The picture is in no cache near: what the next batch needs, most
+ * likely the rows below, is fetched ahead. */
 static ALWAYS_INLINE void find_shifted(const e3d_frame *frame, const e3d_tile *tile, int shift, e3d_batch *batch)
 {
+    enum { LINE = 16 };
     const float *first = frame->ambient_visibility + (size_t)(tile->y >> shift) * (size_t)frame->width + (tile->x >> shift);
-    for (int i = 0; i < e3d_padded_count(batch); i++) {
-        int32_t x = batch->sample[i] & (E3D_TILE - 1), y = batch->sample[i] >> E3D_TILE_SHIFT;
-        batch->visibility[i] = first[(intptr_t)(y >> shift) * frame->width + (x >> shift)];
-    }
+    int32_t width = frame->width, count = e3d_padded_count(batch);
+    for (int i = 0; i < count; i += LINE)
+        __builtin_prefetch(first + pixel_of(batch->sample[i] + count, width, shift));
+    for (int i = 0; i < count; i++)
+        batch->visibility[i] = first[pixel_of(batch->sample[i], width, shift)];
 }
 
 static void find(const e3d_frame *frame, const e3d_tile *tile, e3d_batch *batch)

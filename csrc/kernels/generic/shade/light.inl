@@ -93,7 +93,8 @@ static ALWAYS_INLINE void light_from(const float shown[3], const vf32 l[3], vf32
         light_highlight(shown, l, facing, attenuation, near, shininess, lit);
 }
 
-/* R90: the attenuation times the share of a light that reaches samples. Samples that face away from it get no light anyway. */
+/* R90: the attenuation times the share of a light that reaches samples. Samples that face away from it get no light anyway. What a call
+ * may point into lies in memory, before and after it: so calls get copies, and not the lanes. */
 static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const lit_lanes *lit,
                                          const vf32 l[3], vf32 attenuation)
 {
@@ -104,7 +105,8 @@ static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, co
         return v_mul(attenuation, v_loadf(found + i));
     if (!v_any(v_gt(dot_three(lit->normal, l), v_setf(0.0f))))
         return attenuation;
-    return v_mul(attenuation, light_reached(lighting, n, batch, i, lit->position, l));
+    const vf32 position[3] = {lit->position[0], lit->position[1], lit->position[2]}, towards[3] = {l[0], l[1], l[2]};
+    return v_mul(attenuation, light_reached(lighting, n, batch, i, position, towards));
 }
 
 /* What varies from sample to sample besides the surface, as a constant for the compiler: nothing; the share of lights that
@@ -249,15 +251,21 @@ static ALWAYS_INLINE void ambient_light(const e3d_lighting *lighting, const vf32
     }
 }
 
-/* R54: adds the irradiance of an environment. */
-static __attribute__((noinline)) void light_add_environment(const e3d_environment_light *light, const vf32 normal[3], vf32 energy[3])
+/* R54: the irradiance of an environment. */
+static __attribute__((noinline)) void light_environment(const e3d_environment_light *light, const vf32 normal[3], vf32 out[3])
 {
     environment_plan plan;
-    vf32 more[3];
     environment_begin(light, &plan);
-    environment_irradiance(&plan, normal, more);
+    environment_irradiance(&plan, normal, out);
+}
+
+/* Adds that; the call gets copies, as in light_shadowed. */
+static ALWAYS_INLINE void light_add_environment(const e3d_environment_light *light, lit_lanes *lit)
+{
+    vf32 normal[3] = {lit->normal[0], lit->normal[1], lit->normal[2]}, more[3];
+    light_environment(light, normal, more);
     for (int k = 0; k < 3; k++)
-        energy[k] = v_add(energy[k], more[k]);
+        lit->energy[k] = v_add(lit->energy[k], more[k]);
 }
 
 /* ---- the sums ---- */
@@ -282,7 +290,7 @@ static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const 
     if (varied == LIGHT_VARIED)
         ambient_light(lighting, lit.normal, lit.energy);
     if (varied == LIGHT_VARIED && lighting->environment)
-        light_add_environment(lighting->environment, lit.normal, lit.energy);
+        light_add_environment(lighting->environment, &lit);
     if (varied == LIGHT_VARIED && lighting->has_visibility)
         for (int k = 0; k < 3; k++)
             lit.energy[k] = v_mul(lit.energy[k], v_loadf(batch->visibility + i));

@@ -161,10 +161,10 @@ class FeatureLines:
         if number not in self._edges:
             obj = self._staged.data.own.objects.objects[number]
             edges = None if obj is None else self._edges_of(obj)
-            if edges is None or not len(edges) or (only_closed and not _is_closed(obj)):
-                self._edges[number] = None
-            else:
-                self._edges[number] = _Edges(as_shown(obj), edges)
+            found = None if edges is None else _Edges(as_shown(obj), edges)
+            if found is None or not found.count or (only_closed and not _is_closed(obj)):
+                found = None
+            self._edges[number] = found
         return self._edges[number]
 
     def _edges_of(self, obj: Any) -> np.ndarray | None:

@@ -1,4 +1,7 @@
-"""Random calls with hostile arguments: each ends in a record, or in an error of one short line."""
+"""Random calls with hostile arguments: each ends in a record, or in an error of one short line.
+
+An error changes nothing.
+"""
 
 import random
 
@@ -15,6 +18,12 @@ VALUES = [
 ]
 
 
+def kept(agent):
+    """Return what a session keeps for later calls."""
+    session = agent.session
+    return list(session.things.items()), list(session._before), session.last
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_any_call_ends_well(agent, seed):
     chosen = random.Random(seed)
@@ -29,13 +38,56 @@ def test_any_call_ends_well(agent, seed):
             given = {name: chosen.choice(VALUES) for name in names if chosen.random() < 0.5}
             if "size" in names:
                 given["size"] = [64, 48]
+            before = kept(agent)
             result = await client.call_tool(tool.name, given)
             if result.is_error:
                 said = result.content[0].text
                 assert "a fault of" not in said and "\n" not in said, (tool.name, given, said)
                 assert len(said) < 600, (tool.name, given, said)
+                assert kept(agent) == before, (tool.name, given)
 
     agent.ask(calls)
+
+
+HUGE = [
+    {"scale": 1e200},
+    {"translate": [0, -1.7e308, 0]},
+    {"scale": [1, 1, 1e308], "rotate": {"axis": "x", "degrees": 30}},
+]
+
+
+@pytest.mark.parametrize("change", HUGE, ids=str)
+@pytest.mark.parametrize("name", ["three", "three/box", "lamp"])
+def test_edits_that_nothing_could_show_change_nothing(loaded, name, change):
+    lamp = e3d.Scene()
+    lamp.add(e3d.PointLight(), translation=(1, 2, 3))
+    e3d.save_scene(lamp, loaded.root / "lamp.e3d.json")
+    loaded.told("load", path="lamp.e3d.json", name="lamp")
+    before = kept(loaded)
+    assert "too large or too far away" in loaded.error("edit", name=name, **change)
+    assert kept(loaded) == before
+    assert not loaded.told("render", size=[32, 24])["blank"]
+    for _ in range(2):  # one large step may be drawn, but not several of them
+        loaded.call("edit", name=name, scale=1e25)
+    loaded.told("render", size=[32, 24])
+
+
+@pytest.mark.parametrize(
+    ("where", "tool", "given"),
+    [
+        ("session.Session.bounds_of", "load", {"path": "block.stl"}),
+        ("session.Session.bounds_of", "edit", {"name": "three", "scale": 2}),
+        ("pictures.Drawn.encode", "render", {"size": [32, 24]}),
+    ],
+)
+def test_an_answer_that_fails_changes_nothing(loaded, monkeypatch, where, tool, given):
+    def full(*_):
+        raise MemoryError
+
+    before = kept(loaded)
+    monkeypatch.setattr(f"engine3d.apps.agents.{where}", full)
+    assert loaded.error(tool, **given) == "out of memory"
+    assert kept(loaded) == before
 
 
 @pytest.mark.parametrize("where", ["plug-in", "library"])

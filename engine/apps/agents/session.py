@@ -1,7 +1,8 @@
 """What an agent works on: objects, the edits that made them, the last picture.
 
 In: files, scripts and edits. Out: records of the objects. Objects are immutable, so the history is
-the objects of before.
+the objects of before. An error changes nothing: what a call answers is found before its objects are
+kept.
 """
 
 from __future__ import annotations
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 _MOST_STEPS = 100
 #: Parts that a record of the scene lists.
 _MOST_RECORDS = 200
+#: Poses of larger numbers would show nothing.
+_FARTHEST = 1e30
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -107,8 +110,7 @@ class Session:
                 told.append(
                     f"{thing.name} is in {thing.unit}, {other.name} in {other.unit}: scale one"
                 )
-        self.change(Things({**self.things, thing.name: thing}))
-        return {
+        record = {
             "name": thing.name,
             "format": thing.format,
             "triangles": thing.triangles,
@@ -119,6 +121,8 @@ class Session:
             "up": thing.up,
             "warnings": told,
         }
+        self.change(Things({**self.things, thing.name: thing}))
+        return record
 
     def change(self, things: Things) -> None:
         """Take other objects; `undo` takes the old ones again."""
@@ -191,9 +195,9 @@ class Session:
         )
         if name in changed:
             changed[name] = _with_lights(changed[name], given, moved)
+        bounds = self.bounds_of(changed.find(name, with_lamps=True))
         self.change(changed)
-        now = self.things.find(name, with_lamps=True)
-        return {"name": name, "bounds": self.bounds_of(now), "objects": list(self.things)}
+        return {"name": name, "bounds": bounds, "objects": list(changed)}
 
 
 def _record(session: Session, thing: Thing, part: Part | None = None) -> dict[str, Any]:
@@ -220,7 +224,7 @@ def _middle(parts: list[tuple[Thing, Part]], thing: Thing | None) -> NDArray[np.
 
 def _with_lights(thing: Thing, given: dict[str, Any], moved: NDArray[np.float64]) -> Thing:
     """Return an object whose lights moved with it."""
-    lights = tuple((light, linalg.multiply(moved, pose)) for light, pose in thing.lights)
+    lights = tuple((light, _moved(pose, moved)) for light, pose in thing.lights)
     return replace(thing, lights=lights, shines=bool(given.get("visible", thing.shines)))
 
 
@@ -229,10 +233,18 @@ def _mesh(part: Part) -> Any:
 
 
 def _edited(part: Part, given: dict[str, Any], moved: NDArray[np.float64]) -> Part:
-    part = replace(part, pose=linalg.multiply(moved, part.pose))
+    part = replace(part, pose=_moved(part.pose, moved))
     if "visible" in given:
         part = replace(part, visible=bool(given["visible"]))
     return part.colored(given["color"]) if "color" in given else part
+
+
+def _moved(pose: NDArray[np.float64], moved: NDArray[np.float64]) -> NDArray[np.float64]:
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = linalg.multiply(moved, pose)
+    if not (np.abs(found) <= _FARTHEST).all():
+        raise InvalidArgumentError("edit: that is too large or too far away to be drawn")
+    return found
 
 
 def _motion(given: dict[str, Any], middle: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from pydantic import Field
 
@@ -22,9 +22,12 @@ from ...model.primitives import box
 from ...stage.renderer import Renderer
 from ...version import __version__
 from . import answers
-from .pictures import LOOKS, SIZE, Request
+from .pictures import LOOKS, SIZE, Picture, Request
 from .questions import checked, gap_between, measured, pick
 from .session import Session
+
+if TYPE_CHECKING:
+    from .grids import GridPicture
 
 _FORMATS = ("png", "webp")
 _GRID, _PANE = (1200, 900), (500, 375)
@@ -59,6 +62,12 @@ class Tool(NamedTuple):
 
 def tools_of(session: Session) -> list[Tool]:
     """Return the tools that work on a session, those of scripts only if they are allowed."""
+
+    def kept(picture: Picture | GridPicture) -> Answer:
+        """Answer with a picture, and keep it for questions about its pixels."""
+        answer = Answer(picture.record, picture.encode())
+        session.last = picture
+        return answer
 
     def load(
         path: Annotated[str, Field(description="below the root folder")],
@@ -98,8 +107,7 @@ def tools_of(session: Session) -> list[Tool]:
     ) -> Answer:
         """Draw the scene. Tells which objects show, where, and why a picture is blank."""
         request = Request(view, size, objects, hide, look, transparent, labels, section, highlight)
-        session.last = session.studio.draw(session.things, request)
-        return Answer(session.last.record, session.last.encode())
+        return kept(session.studio.draw(session.things, request))
 
     def views(
         names: Annotated[
@@ -117,8 +125,7 @@ def tools_of(session: Session) -> list[Tool]:
 
         cuts = sections.split(",") if isinstance(sections, str) and sections else sections or ()
         asked = names if isinstance(names, str) else ",".join(names)
-        session.last = draw_views(session.studio, session.things, asked, size, objects, cuts)
-        return Answer(session.last.record, session.last.encode())
+        return kept(draw_views(session.studio, session.things, asked, size, objects, cuts))
 
     def turntable(
         frames: int = 8,
@@ -134,8 +141,7 @@ def tools_of(session: Session) -> list[Tool]:
         if choose(format, _FORMATS, "format") == "webp":
             animation, record = animate_turntable(*turn)
             return Answer(record, animation, "image/webp")
-        session.last = draw_turntable(*turn)
-        return Answer(session.last.record, session.last.encode())
+        return kept(draw_turntable(*turn))
 
     def pick_(x: int, y: int, view: View | None = None, size: Size = SIZE) -> Answer:
         """Tell what is at a pixel of the last picture, or of a view that is drawn for it."""

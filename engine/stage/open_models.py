@@ -5,13 +5,14 @@ In: paths. Out: a scene with all models, placed as in their files or side by sid
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..base import linalg
 from ..base.box_corners import box_corners
+from ..choices import ColorLike
 from ..errors import warn
 from ..io.reading.documents import Document
 from ..io.reading.sources import File
@@ -85,7 +86,8 @@ def open_models(
     for viewed in viewed_scenes:
         viewed.up = up or viewed.up
     first = viewed_scenes[0]
-    scene = Scene(first.scene.background, _brightest(viewed_scenes))
+    ambient = brightest([viewed.scene.ambient for viewed in viewed_scenes])
+    scene = Scene(first.scene.background, ambient)
     poses = _row(viewed_scenes) if side_by_side else _own_places(viewed_scenes)
     for viewed, pose in zip(viewed_scenes, poses, strict=True):
         _add(scene, viewed, pose)
@@ -114,10 +116,9 @@ def _share_range(opened: list[tuple[ViewedScene, Document]], numbers: Numbers | 
         color_by(viewed, document, shared)
 
 
-def _brightest(viewed_scenes: list[ViewedScene]) -> LinearColor:
-    """Return the brightest ambient light among the models."""
-    lights = [linear_color(viewed.scene.ambient) for viewed in viewed_scenes]
-    return LinearColor(np.max(lights, axis=0).tolist())
+def brightest(colors: Iterable[ColorLike]) -> LinearColor:
+    """Return the largest of each channel among colours."""
+    return LinearColor(np.max([linear_color(color) for color in colors], axis=0).tolist())
 
 
 def _add(scene: Scene, viewed: ViewedScene, pose: np.ndarray) -> None:

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from agents.conftest import Agent
 
 import engine3d as e3d
 
+RED = 0.25, 0.0, 0.0
 POINT = e3d.PointLight(intensity=20.0)
 
 
@@ -111,3 +113,76 @@ def test_lights_are_exported_or_named(lit):
     assert [type(one.object) for one in scene.nodes if isinstance(one.object, e3d.PointLight)]
     texts = [part.text for part in lit.call("export", path="both.stl").content]
     assert "both.stl: .stl files hold no lights: 1 left out" in "\n".join(texts)
+
+
+def saved(agent, name, **surroundings):
+    """Write a floor with a lamp in a scene of some surroundings."""
+    scene = e3d.Scene(ambient=surroundings.pop("ambient", (0, 0, 0)))
+    scene.add(e3d.box((4, 0.25, 4)), name="floor")
+    scene.add(POINT, translation=(1.5, 1, 1.5))
+    for key, value in surroundings.items():
+        setattr(scene, key, value)
+    e3d.save_scene(scene, agent.root / f"{name}.e3d.json")
+    return scene
+
+
+def from_below(agent, **options):
+    view = {"azimuth": 20, "elevation": -30}
+    picture, told = agent.picture("render", view=view, size=[64, 48], look="plain", **options)
+    return np.asarray(picture.convert("RGB")).astype(int), told["camera"]
+
+
+@pytest.mark.parametrize("way", ["file", "script", "list"])
+def test_pictures_have_the_ambient_light_and_the_environment_of_files(tmp_path, way):
+    agent = Agent(tmp_path, allow_scripts=True)
+    sky = e3d.Environment(np.full((4, 8, 3), (0.1, 0.2, 0.4), np.float32))
+    metal = e3d.Material(color="silver", metallic=1.0)
+    scene = saved(agent, "lit", ambient=(0.3, 0.2, 0.1), environment=sky, environment_intensity=2)
+    next(node for node in scene.nodes if node.name == "floor").object.materials = [metal]
+    e3d.save_scene(scene, tmp_path / "lit.e3d.json")
+    path = str(tmp_path / "lit.e3d.json")
+    made = f"engine3d.load_scene({path!r})"
+    made = f"[{made}]" if way == "list" else made
+    if way == "file":
+        agent.told("load", path="lit.e3d.json")
+    else:
+        agent.told("script", code=f"import engine3d\ndef build(): return {made}")
+    pixels, seen = from_below(agent)
+    eye = e3d.look_at(seen["position"], seen["target"], up=seen["up"])
+    camera = e3d.PerspectiveCamera(np.radians(seen["yfov"])), eye
+    frame = e3d.render(scene, camera, size=(64, 48), outputs=("color", "object_id"))
+    on = frame.object_id >= 0
+    within = on & np.all([np.roll(on, step, axis) for step in (-1, 1) for axis in (0, 1)], axis=0)
+    assert within.sum() > 300
+    assert np.abs(pixels - frame.color[..., :3])[within].max() <= 1
+
+
+def test_ambient_light_of_several_objects_is_the_larger_one(agent):
+    saved(agent, "red", ambient=e3d.linear(*RED))
+    saved(agent, "blue", ambient=e3d.linear(0.125, 0, 0.25))
+    saved(agent, "both", ambient=e3d.linear(0.25, 0, 0.25))
+    agent.told("load", path="both.e3d.json", name="both")
+    wanted, _ = from_below(agent)
+    agent.told("undo")
+    agent.told("load", path="red.e3d.json", name="red")
+    red, _ = from_below(agent)
+    agent.told("load", path="blue.e3d.json", name="blue")
+    both, _ = from_below(agent)
+    assert differ(both, wanted) < 1 < differ(red, wanted)
+    agent.told("edit", name="blue", visible=False)
+    assert differ(from_below(agent)[0], red) == 0
+    agent.told("export", path="out.e3d.json")
+    assert e3d.load_scene(agent.root / "out.e3d.json").ambient == e3d.linear(*RED)
+
+
+def test_a_file_without_lights_wears_the_look_alone(agent):
+    for name, ambient in (("dim", 0.0), ("bright", 0.8)):
+        scene = e3d.Scene(ambient=(ambient,) * 3)
+        scene.add(e3d.box((4, 0.25, 4)), name="floor")
+        e3d.save_scene(scene, agent.root / f"{name}.e3d.json")
+    pictures = []
+    for name in ("dim", "bright"):
+        agent.told("load", path=f"{name}.e3d.json", name=name)
+        pictures.append(from_below(agent)[0])
+        agent.told("undo")
+    assert differ(*pictures) == 0

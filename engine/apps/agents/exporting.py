@@ -20,7 +20,7 @@ from ...model.scene.instances import InstancedMesh, instance_matrices
 from ...model.scene.scene import Scene
 from .pictures import visible_parts
 from .session import Session
-from .shown_scene import lights_of
+from .shown_scene import light_scene, lights_of
 from .things import Part, Thing
 
 #: Of pictures only PNG: it keeps every pixel.
@@ -86,8 +86,7 @@ def _scene(parts: list[tuple[Thing, Part]], lamps: list[Thing]) -> Scene:
     scene = Scene()
     for thing, part in parts:
         scene.add(part.drawn, name=thing.label(part), pose=part.pose)
-    for light, pose in lights_of(parts, lamps):
-        scene.add(light, pose=pose)
+    light_scene(scene, parts, lamps)
     return scene
 
 

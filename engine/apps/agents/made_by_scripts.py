@@ -16,6 +16,7 @@ from typing import Any
 from ...errors import Engine3DError, InvalidArgumentError, printable
 from ...io.reading.sources import read_source
 from ...stage.viewed_thing import viewed_of
+from .indirect_light import joined
 from .server_limits import Limits
 from .session import Session
 from .things import Thing, thing_of, unused
@@ -126,4 +127,5 @@ def _as_one(things: list[tuple[str, Thing]], name: str) -> Thing:
         unit=first.unit,
         up=first.up,
         model_edges=bool(things) and all(thing.model_edges for _, thing in things),
+        indirect=joined([thing.indirect for _, thing in things]),
     )

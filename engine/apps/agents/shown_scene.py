@@ -19,9 +19,10 @@ from ...stage.near_origin import moved_near
 from ...stage.viewed_scene import ViewedScene
 from ..sheet.visible import Shown as Counted
 from ..sheet.visible import count_by_key
+from .indirect_light import joined
 from .things import Part, Thing
 
-#: Ambient light of scenes without light: that of a look replaces it.
+#: Ambient light of scenes without lights: that of a look replaces it.
 _NO_LIGHT = (0, 0, 0)
 
 
@@ -82,8 +83,7 @@ def shown_scene(parts: list[tuple[Thing, Part]], lamps: Sequence[Thing] = ()) ->
         node = scene.add(part.drawn, name=thing.label(part), pose=part.pose)
         owners[node.id] = thing, part
     things = list(dict.fromkeys(thing for thing, _ in parts))
-    for light, pose in lights_of(parts, lamps):
-        scene.add(light, pose=pose)
+    light_scene(scene, parts, lamps)
     viewed = ViewedScene(
         scene,
         ", ".join(thing.name for thing in things) or "nothing",
@@ -96,9 +96,25 @@ def shown_scene(parts: list[tuple[Thing, Part]], lamps: Sequence[Thing] = ()) ->
     return Shown(moved_near(viewed), owners, lamps)
 
 
+def light_scene(scene: Scene, parts: list[tuple[Thing, Part]], lamps: Sequence[Thing] = ()) -> None:
+    """Give a scene the light of the objects of parts, and of lamps.
+
+    Where they have lights, their ambient light shines, too: that of several is the larger one in
+    each channel. Without lights, the look's light takes its place. Of environments it is the first.
+    """
+    lights = lights_of(parts, lamps)
+    for light, pose in lights:
+        scene.add(light, pose=pose)
+    indirect = joined([thing.indirect for thing in _shining(parts, lamps)])
+    indirect.put(scene, with_ambient=bool(lights))
+
+
 def lights_of(
     parts: list[tuple[Thing, Part]], lamps: Sequence[Thing] = ()
 ) -> list[tuple[Any, NDArray[np.float64]]]:
     """Return the lights of the objects of parts, and of lamps, with their poses."""
-    things = dict.fromkeys([*(thing for thing, _ in parts), *lamps])
-    return [light for thing in things for light in thing.lights]
+    return [light for thing in _shining(parts, lamps) for light in thing.lights]
+
+
+def _shining(parts: list[tuple[Thing, Part]], lamps: Sequence[Thing]) -> list[Thing]:
+    return list(dict.fromkeys([*(thing for thing, _ in parts), *lamps]))

@@ -24,6 +24,7 @@ from ...model.scene.shown import placing_pose, shown_object
 from ...stage.painting import painted
 from ...stage.viewed_scene import ViewedScene
 from ...stage.visibility import mesh_of
+from .indirect_light import IndirectLight, indirect_light_of
 
 Drawable = Mesh | InstancedMesh
 
@@ -73,6 +74,8 @@ class Thing:
     parts : tuple of Part
     lights : tuple of (light, pose)
         They shine while a part shows; those of an object without parts, while ``shines``.
+    indirect : IndirectLight
+        Shines as long as they do.
     source : str
         The file's name below the root; empty for scripts.
     format, unit : str
@@ -95,6 +98,7 @@ class Thing:
     warnings: tuple[str, ...] = field(default=())
     model_edges: bool = False
     shines: bool = True
+    indirect: IndirectLight = IndirectLight()
 
     @property
     def triangles(self) -> int:
@@ -129,6 +133,7 @@ def thing_of(viewed: ViewedScene, name: str, source: str = "") -> Thing:
         viewed.up,
         tuple(printable(str(line)) for line in viewed.warnings),
         viewed.model_edges,
+        indirect=indirect_light_of(viewed.scene),
     )
 
 

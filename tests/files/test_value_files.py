@@ -54,6 +54,14 @@ def test_what_16_bits_do_not_hold_is_marked_and_told(tmp_path):
         assert np.asarray(image).tolist() == [[0, 256]]
 
 
+def test_negative_numbers_are_no_small_ones(tmp_path):
+    values = np.array([[-1.0, -1e-9, -1e9, np.nan, 0.0, 1e-9, 2.0]])
+    with pytest.warns(e3d.Engine3DWarning, match="4 pixels have values that 16 bits do not hold"):
+        save_values(tmp_path / "a.png", values)
+    with Image.open(tmp_path / "a.png") as image:
+        assert np.asarray(image).tolist() == [[0, 0, 0, 0, 1, 1, 512]]
+
+
 @pytest.mark.parametrize("values", [DEPTH, FLOW, RANDOM.random((7, 5, 3)).astype(np.float32)])
 def test_pfm_is_read_by_opencv(tmp_path, values):
     cv2 = pytest.importorskip("cv2", exc_type=ImportError)

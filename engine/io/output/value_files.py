@@ -54,7 +54,7 @@ def save_values(
         - .exr: float32, channel Y, or R and G, or R, G and B, uncompressed; NaN where not valid.
         - .flo: flow; 1e10 where not valid.
         - .png: as KITTI has them: one channel of 16 bits in steps of 1/256, 0 where not valid, so
-          up to 255.99; or flow in steps of 1/64, from -512 to 511.98, with a channel for valid.
+          0 to 255.99; or flow in steps of 1/64, from -512 to 511.98, with a channel for valid.
           A mask is black and white.
     values : (H, W) or (H, W, channels) number
     valid : (H, W) bool, optional
@@ -157,16 +157,18 @@ def _png(array: NDArray[np.generic], valid: Mask) -> bytes:
     if floats.shape[2] == 2:
         codes, fits = _steps(floats * _FLOW_STEPS + _FLOW_MIDDLE, 0.0, valid)
         return encode_pixels(np.concatenate([codes, fits[..., np.newaxis]], axis=2))
-    codes, _ = _steps(floats * _STEPS, 1.0, valid)  # 0 is taken
+    steps = floats * _STEPS
+    lifted = np.where((steps >= 0.0) & (steps < 1.0), 1.0, steps)  # 0 is taken
+    codes, _ = _steps(lifted, 1.0, valid)
     return encode_pixels(codes)
 
 
 def _steps(
     values: NDArray[np.float64], least: float, valid: Mask
 ) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
-    """Return values as whole numbers, 0 where not valid; and 1 where valid."""
-    codes = np.maximum(np.floor(values + 0.5), least if least else -np.inf)
-    fits = valid & ((codes >= 0.0) & (codes <= _MOST)).all(axis=2)
+    """Return values as whole numbers from a least one on, 0 where not valid; and 1 where valid."""
+    codes = np.floor(values + 0.5)
+    fits = valid & ((codes >= least) & (codes <= _MOST)).all(axis=2)
     lost = int((valid & ~fits).sum())
     if lost:
         warn(f"{lost} pixels have values that 16 bits do not hold: they are marked as not valid")

@@ -9,6 +9,7 @@ import engine3d as e3d
 from engine3d.apps.cli import main
 from engine3d.apps.datasets.kinds import made_writer, writer_class
 from engine3d.apps.scenes import load_demo
+from engine3d.base.plugins import discovery
 from engine3d.base.plugins.groups import GROUPS
 from engine3d.base.plugins.registry import find_plugin
 from engine3d.datasets import write_dataset
@@ -294,6 +295,30 @@ def test_files_of_options_cannot_leave_plugins_out(tmp_path, capsys, where):
     assert "there is no" in capsys.readouterr().err
 
 
+@pytest.mark.filterwarnings("error::DeprecationWarning")
+def test_packages_need_no_summary(package, vox):
+    """Python is to raise errors of fields that metadata lack; now it warns of them."""
+    folder = package(READER, readers={"vox": "{0}:read"})
+    (path,) = folder.glob("*.dist-info/METADATA")
+    path.write_text("Metadata-Version: 2.1\nName: demo-0\n")
+    assert len(e3d.load_mesh(vox).faces) == 12
+    (plugin,) = [one for one in discovery.installed_plugins() if one.name == "vox"]
+    assert (plugin.package, plugin.version, plugin.about) == ("demo-0", "?", "")
+
+
+def test_a_warning_that_is_an_error_of_metadata_is_told(package, vox, monkeypatch):
+    def deprecated(_):
+        raise DeprecationWarning("no more")
+
+    package(READER, readers={"vox": "{0}:read"})
+    monkeypatch.setattr(discovery, "_of", deprecated)
+    with (
+        pytest.warns(e3d.Engine3DWarning, match="left out: DeprecationWarning: no more"),
+        pytest.raises(e3d.FileFormatError, match="unknown mesh format"),
+    ):
+        e3d.load_mesh(vox)
+
+
 def test_damaged_metadata_of_a_package_is_told_and_passed_over(package, vox):
     package(READER, readers={"vox": "{0}:read"})
     folder = package(READER, readers={"vex": "{0}:read"})
@@ -302,8 +327,6 @@ def test_damaged_metadata_of_a_package_is_told_and_passed_over(package, vox):
     with pytest.warns(e3d.Engine3DWarning, match="metadata cannot be read"):
         assert len(e3d.load_mesh(vox).faces) == 12
     points.write_bytes(b"[engine3d.readers]\n\xff\xfe")
-    from engine3d.base.plugins import discovery
-
     discovery._found.cache_clear()
     with pytest.warns(e3d.Engine3DWarning, match="metadata cannot be read"):
         assert len(e3d.load_mesh(vox).faces) == 12

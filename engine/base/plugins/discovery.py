@@ -68,12 +68,13 @@ def _found() -> tuple[Plugin, ...]:
 
 def _of(distribution: Distribution) -> Iterator[Plugin]:
     metadata: Any = distribution.metadata
-    about = " ".join((metadata["Summary"] or "").split())
+    # Python is to raise errors of names that are not there, and warns of that: `get` does neither.
+    about = " ".join(metadata.get("Summary", "").split())
     for point in distribution.entry_points:
         group = group_of(point.group)
         if group is not None:
-            name = metadata["Name"] or "a package without a name"
-            version = distribution.version or "?"
+            name = metadata.get("Name") or "a package without a name"
+            version = metadata.get("Version") or "?"
             yield Plugin(group.name, point.name, point.load, name, version, about)
 
 

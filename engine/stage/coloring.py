@@ -164,11 +164,11 @@ class Coloring:
         """Return the numbers of a mesh, (N, K), and what they belong to; NaN if it lacks them."""
         if self._given is not None:
             given = np.asarray(self._given.array)
-            return given.reshape(len(given), -1), self._given.on
+            return _columns(given), self._given.on
         key = _key_of(mesh, self._name, self._numbers.on)
         if key is not None:
             array = mesh.values[key]
-            return array.reshape(len(array), -1), mesh.values.on(key)
+            return _columns(array), mesh.values.on(key)
         pose = self._poses.get(id(mesh), (mesh, None))[1]
         return _coordinates(mesh, self._name, pose), "vertices"
 
@@ -203,6 +203,11 @@ class Coloring:
         chosen = bar.colors[numbers]
         mesh.colors = np.where(is_number[:, np.newaxis], chosen, np.uint8(MISSING[0]))
         dress(mesh, Material())
+
+
+def _columns(array: NDArray[Any]) -> NDArray[Any]:
+    """Return numbers as rows, (N, K), also if there are none."""
+    return array.reshape(len(array), array[0].size if len(array) else 1)
 
 
 def coloring_of(scene: Scene, numbers: Numbers, up: str = "+Y", unit: str = "") -> Coloring:

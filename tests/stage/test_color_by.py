@@ -188,3 +188,12 @@ def test_letters_beside_a_small_picture_with_a_bar_are_whole(monkeypatch):
     (left, _), (_, top), (_, numbers) = written["Y"], written["X"], written["1000"]
     colors = numbers - 12  # in the block of the bar, above its numbers
     assert left >= 0 and top + text_size("X")[1] < colors
+
+
+def test_no_numbers_color_nothing():
+    for numbers in ([], np.zeros((0, 2))):
+        with pytest.raises(e3d.InvalidArgumentError, match="0 rows for 24 vertices, 12 faces"):
+            e3d.render(e3d.box(), color_by=numbers, size=(16, 16))
+        empty = e3d.Mesh(np.zeros((0, 3)))
+        with pytest.warns(e3d.Engine3DWarning, match="nothing shows"):
+            e3d.render(empty, color_by=numbers, size=(16, 16))

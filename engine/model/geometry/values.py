@@ -162,6 +162,8 @@ def checked_values(
             )
         return Values(rows, on)
     fitting = [place for place, count in counts.items() if count == len(rows)]
+    if not len(rows) and former is None and any(counts.values()):
+        fitting = []  # not those of the points that a mesh of faces lacks
     if former in fitting:
         return Values(rows, former)
     if not fitting:

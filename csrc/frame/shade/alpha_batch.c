@@ -133,6 +133,19 @@ static void keep_bends(const e3d_bend_batch *bends, int first, int end, e3d_bend
     }
 }
 
+/* Whether the batch's samples from i on, the first of them at that place in the list, are neighbours in the list, too. Places grow
+ * from sample to sample, so it is enough that the last primitive begins as much later in the list as in the batch. */
+static int is_run(const e3d_shade_memory *memory, int i, int32_t place)
+{
+    const e3d_batch *batch = &memory->batch;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
+    int32_t last = batch->surface[batch->count - 1];
+    int64_t begin = (int64_t)primitives[memory->surfaces.primitive[last]].first - place + i;
+    if (batch->surface[i] == last)
+        return 1;
+    return begin > i && begin < batch->count && batch->surface[begin] == last && batch->surface[begin - 1] != last;
+}
+
 /* Where the samples end that are neighbours both in the batch and in the list, from sample i and that place on. Mostly that is
  * the whole batch: the samples of one primitive, or of several that follow each other in the list. */
 static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_shaded_list *list)
@@ -140,6 +153,10 @@ static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_
     const e3d_batch *batch = &memory->batch;
     const e3d_visible_primitive *primitives = memory->primitives.data;
     int end = i + 1;
+    if (is_run(memory, i, place)) {
+        list->primitive = memory->surfaces.primitive[batch->surface[batch->count - 1]];
+        return batch->count;
+    }
     for (; end < batch->count; end++) {
         int32_t primitive = memory->surfaces.primitive[batch->surface[end]];
         if (primitive != list->primitive && primitives[primitive].first != place + (end - i))

@@ -370,6 +370,15 @@ static ALWAYS_INLINE void alpha_lay_all(const e3d_alpha_layers *layers, const ui
         e3d_lay_light(layers, order, count, sample);
 }
 
+/* Prefetches the colours of layers that follow a little later: they lie by record, not by sample. */
+static ALWAYS_INLINE void alpha_ask(const e3d_alpha_layers *layers, uint32_t first, uint32_t end)
+{
+    enum { AHEAD = 64 };
+    uint32_t all = layers->first[E3D_TILE_SAMPLES], last = end + AHEAD < all ? end + AHEAD : all;
+    for (uint32_t n = first + AHEAD; n < last; n++)
+        __builtin_prefetch(layers->color[layers->which[n]]);
+}
+
 static int kernel_blend(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left)
 {
     int listed = 0;
@@ -377,6 +386,7 @@ static int kernel_blend(const e3d_alpha_layers *layers, e3d_samples *samples, ui
         uint32_t first = layers->first[s], count = layers->first[s + 1] - first, order[ALPHA_MOST];
         if (!count)
             continue;
+        alpha_ask(layers, first, first + count);
         if (count > ALPHA_MOST || !alpha_sort(layers, first, (int)count, order))
             left[listed++] = (uint16_t)s;
         else

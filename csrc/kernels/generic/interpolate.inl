@@ -102,7 +102,7 @@ static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surf
                                       void (*stage)(e3d_batch *, const sample_vector *, const void *), const void *how)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
-        sample_vector v = {.i = i, .elements = lanes_of(batch->surface + i)};
+        sample_vector v = {.i = i, .elements = elements_of(batch->surface + i)};
         v.s = surfaces_from(surfaces, &v.elements);
         v.same = v.elements.same;
         if (v.same) {

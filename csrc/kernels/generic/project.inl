@@ -21,7 +21,7 @@ static void kernel_project(e3d_surfaces *s, const e3d_viewport *viewport)
 {
     vf32 scale_x = v_setf(viewport->scale_x), scale_y = v_setf(viewport->scale_y);
     for (int n = 0; n < s->count; n += V_LANES) {
-        element_lanes lanes = lanes_of(s->matrix + n);
+        element_lanes lanes = elements_of(s->matrix + n);
         const e3d_surfaces *matrices = surfaces_from(s, &lanes);
         vi32 x[3], y[3], kind = v_loadi(s->project + n), zero = v_seti(0), one = v_seti(1);
         vf32 iw[3], m[3][4];

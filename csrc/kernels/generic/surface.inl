@@ -93,7 +93,7 @@ static inline int lanes_first(int first, int last)
     return first != last && last - line < V_LANES ? line : first;
 }
 
-static inline element_lanes lanes_of(const int32_t *elements)
+static inline element_lanes elements_of(const int32_t *elements)
 {
     int first = elements[0], last = elements[V_LANES - 1], from = lanes_first(first, last);
     return (element_lanes){from, first == last, v_picker(v_subi(v_loadi(elements), v_seti(from)))};
@@ -196,7 +196,7 @@ static inline void surface_slopes(e3d_surfaces *s, int n)
 static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)
 {
     for (int n = 0; n < s->count; n += V_LANES) {
-        element_lanes lanes = lanes_of(s->matrix + n);
+        element_lanes lanes = elements_of(s->matrix + n);
         const e3d_surfaces *matrices = surfaces_from(s, &lanes);
         surface_planes(s, n, tile_x, tile_y);
         if (wanted & E3D_WANT_POSITION)

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "base/limits.h"
+#include "base/vectors.h"
 #include "data/sample_patterns.h"
 #include "kernels/types/shown.h"
 
@@ -43,10 +44,9 @@ typedef struct e3d_alpha_layers {
 /* R84: blends a clamped colour, followed by its alpha, over a sample; over[3] is the sum of alphas. */
 static inline void e3d_lay_layer(const float color[4], float over[4])
 {
-    float a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - a;
-    const float whole[4] = {color[0], color[1], color[2], 1.0f};
-    for (int k = 0; k < 4; k++)
-        over[k] = whole[k] * a + over[k] * rest;
+    float4 own = load4(color), a = LANES(own, own, 3, 3, 3, 3), one = splat(1.0f);
+    a = (float4)((int4)(a >= splat(E3D_LEAST_ALPHA)) & (int4)a);
+    store4(over, LANES(own, one, 0, 1, 2, 4) * a + load4(over) * (one - a));
 }
 
 /* R135: the same for a colour through which shares of light pass. */

@@ -80,7 +80,7 @@ static inline probe_source probes_from(const e3d_batch *batch, const e3d_surface
 /* R25: the changes of coordinates, times 1 / s^2. */
 static ALWAYS_INLINE void changes_of(const probe_source *from, int i, vf32 along[2], vf32 down[2])
 {
-    element_lanes lanes = lanes_of(from->batch->surface + i);
+    element_lanes lanes = elements_of(from->batch->surface + i);
     const e3d_surfaces *s = surfaces_from(from->surfaces, &lanes);
     vi32 sample = v_loadi(from->batch->sample + i);
     vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT));

@@ -72,7 +72,7 @@ static inline void slot_slopes(const e3d_surfaces *s, e3d_texture_surfaces *m, i
 static void kernel_texture_surfaces(const e3d_surfaces *s, const e3d_read_textures *textures, e3d_texture_surfaces *m)
 {
     for (int n = 0; n < s->count; n += V_LANES) {
-        element_lanes lanes = lanes_of(s->matrix + n);
+        element_lanes lanes = elements_of(s->matrix + n);
         for (int p = 0; p < textures->place_count; p++)
             if (textures->places[p].has_level)
                 slot_slopes(s, m, p, textures->places[p].texels, n);

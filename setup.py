@@ -419,6 +419,8 @@ def translate_changed(name, source, target, include_dirs):
     else:
         # Annotations are for stubs alone: what C cannot say of a type is not checked.
         command += ["-3", "-X", "embedsignature=True", "-X", "annotation_typing=False", "--depfile"]
+        # Plain methods of C: those that look like Python's take longer to call.
+        command += ["-X", "binding=False"]
         command += [word for folder in include_dirs for word in ("-I", folder)]
         command += ["--shared", COMMON_MODULE, source, "-o", str(target)]
     # A build in isolation has a Cython of its own each time, so its version stands for its files.

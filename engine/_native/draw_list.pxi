@@ -27,42 +27,55 @@ cdef void *resized(void *items, size_t count, size_t size) except NULL:
     return moved
 
 
-cdef int set_rows(e3d_node_rows *rows, int32_t count, dict columns, const uint64_t[::1] selection) except -1:
-    """Point at the arrays of the first nodes, which their holder keeps alive."""
-    cdef const uint8_t[::1] flags = columns["flags"], unshadowed = columns["unshadowed"]
-    cdef const int32_t[::1] object = columns["object"], id = columns["object_id"], anchor = columns["anchor"]
-    cdef const double[:, ::1] world = columns["world"]
-    require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0], anchor.shape[0],
-                              unshadowed.shape[0]),
-            "the arrays of nodes are too short")
-    require(world.shape[1] == 12, "world must be (nodes, 12)")
-    require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
-    memset(rows, 0, sizeof(e3d_node_rows))
-    if count:
+cdef class NativeRows:
+    """The arrays of nodes that draw lists read, by the names of `NodeArrays`: held, and looked at once."""
+
+    cdef e3d_node_rows rows
+    cdef const double *bounds
+    cdef const uint32_t *versions
+    cdef int32_t room
+    cdef list held
+
+    def __cinit__(self, dict columns not None):
+        cdef const uint8_t[::1] flags = columns["flags"], unshadowed = columns["unshadowed"]
+        cdef const int32_t[::1] object = columns["object"], id = columns["object_id"], anchor = columns["anchor"]
+        cdef const double[:, ::1] world = columns["world"], bounds = columns["bounds"]
+        cdef const uint32_t[::1] versions = columns["world_version"]
+        self.held = [flags, object, id, world, anchor, unshadowed, bounds, versions]
+        self.room = <int32_t>min(map(len, self.held))
+        require(world.shape[1] == 12, "world must be (nodes, 12)")
+        require(bounds.shape[1] == E3D_BOX, "bounds must be (nodes, 7)")
+        if self.room:
+            self.rows.flags, self.rows.object, self.rows.id = &flags[0], &object[0], &id[0]
+            self.rows.world, self.rows.anchor, self.rows.unshadowed = &world[0, 0], &anchor[0], &unshadowed[0]
+            self.bounds, self.versions = &bounds[0, 0], &versions[0]
+
+    cdef int first(self, int32_t count, const uint64_t[::1] selection, e3d_node_rows *rows) except -1:
+        """Fill in the rows of the first nodes."""
+        require(0 <= count <= self.room, "the arrays of nodes are too short")
+        require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
+        rows[0] = self.rows
         rows.count = count
-        rows.flags, rows.object, rows.id, rows.world = &flags[0], &object[0], &id[0], &world[0, 0]
-        rows.anchor, rows.unshadowed = &anchor[0], &unshadowed[0]
-    return 0
+        return 0
 
 
 def find_casters(
-    int32_t count, dict columns not None, const uint64_t[::1] selection, int32_t[:, ::1] found not None
+    NativeRows arrays not None, int32_t count, const uint64_t[::1] selection, int32_t[:, ::1] found not None
 ) -> int:
     """Write slot, object and version of each node that shows and casts shadows; return how many there are.
 
     Of all nodes, or of those whose bit is set in a selection.
     """
     cdef e3d_node_rows rows
-    cdef const uint32_t[::1] versions = columns["world_version"]
     cdef const uint64_t *bits = NULL
-    set_rows(&rows, count, columns, selection)
-    require(min(versions.shape[0], found.shape[0]) >= count and found.shape[1] == 3, "found must be (nodes, 3)")
+    arrays.first(count, selection, &rows)
+    require(found.shape[0] >= count and found.shape[1] == 3, "found must be (nodes, 3)")
     if not count:
         return 0
     if selection is not None:
         bits = &selection[0]
     rows.casting = True
-    return e3d_graph_casters(&rows, bits, &versions[0], &found[0, 0])
+    return e3d_graph_casters(&rows, bits, arrays.versions, &found[0, 0])
 
 
 cdef class NativeDrawList:
@@ -180,10 +193,10 @@ cdef class NativeDrawList:
 
     def place(
         self,
+        NativeRows arrays not None,
         int32_t count,
-        dict columns not None,
         const uint64_t[::1] selection,
-        const double[:, ::1] clip_from_world,
+        clip_from_world: NDArray[np.float64] | None,
         double widen,
         bint flat,
         bint batch,
@@ -198,10 +211,9 @@ cdef class NativeDrawList:
         cdef e3d_node_rows rows
         cdef e3d_view_volume volume
         cdef const e3d_view_volume *view = NULL
-        set_rows(&rows, count, columns, selection)
+        arrays.first(count, selection, &rows)
         if clip_from_world is not None:
-            require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
-            memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+            require(copy_matrix(&volume.clip_from_world[0], clip_from_world), "a matrix is 4x4")
             volume.widen, volume.flat = widen, flat
             view = &volume
         if moved:
@@ -214,10 +226,10 @@ cdef class NativeDrawList:
 
     def open_apertures(
         self,
+        NativeRows arrays not None,
         int32_t count,
-        dict columns not None,
-        const double[:, ::1] clip_from_world not None,
-        const double[:, ::1] view_from_world not None,
+        clip_from_world: NDArray[np.float64],
+        view_from_world: NDArray[np.float64],
         int width,
         int height,
     ) -> int | None:
@@ -227,39 +239,34 @@ cdef class NativeDrawList:
         """
         cdef e3d_node_rows rows
         cdef e3d_looking looking
-        cdef const double[:, ::1] bounds = columns["bounds"]
         cdef int32_t found
-        set_rows(&rows, count, columns, None)
-        require(bounds.shape[0] >= count and bounds.shape[1] == E3D_BOX, "bounds must be (nodes, 7)")
-        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
-        require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
-        memcpy(looking.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
-        memcpy(looking.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+        arrays.first(count, None, &rows)
+        require(copy_matrix(&looking.clip_from_world[0], clip_from_world), "a matrix is 4x4")
+        require(copy_matrix(&looking.view_from_world[0], view_from_world), "a matrix is 4x4")
         looking.width, looking.height = width, height
-        found = e3d_find_apertures(&self.placed, &rows, &bounds[0, 0], self.objects, &looking, self.apertures)
+        found = e3d_find_apertures(&self.placed, &rows, arrays.bounds, self.objects, &looking, self.apertures)
         self.aperture_count = max(found, 0)
         return None if found < 0 else found
 
     def place_casters(
         self,
+        NativeRows arrays not None,
         int32_t count,
-        dict columns not None,
         const uint64_t[::1] selection not None,
-        const double[:, ::1] clip_from_world not None,
+        clip_from_world: NDArray[np.float64],
     ):
         """List what a map of shadows draws: of the nodes whose bit is set those that cast shadows."""
         cdef e3d_node_rows rows
         cdef e3d_view_volume volume
-        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
-        memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+        require(copy_matrix(&volume.clip_from_world[0], clip_from_world), "a matrix is 4x4")
         volume.widen, volume.flat = 1.0, False
-        set_rows(&rows, count, columns, selection)
+        arrays.first(count, selection, &rows)
         rows.casting = True
         self.list_draws(&self.casting, &rows, selection, &volume, True)
         self.find_casting_materials()
 
     def place_hiding(
-        self, int32_t count, dict columns not None, int64_t version, const uint32_t[::1] spared_lights=None
+        self, NativeRows arrays not None, int32_t count, int64_t version, const uint32_t[::1] spared_lights=None
     ):
         """List what may hide lights with exact shadows: all nodes that show and cast shadows.
 
@@ -267,7 +274,7 @@ cdef class NativeDrawList:
         ``spared_lights`` is set where it does not hide the n-th of these lights.
         """
         cdef e3d_node_rows rows
-        set_rows(&rows, count, columns, None)
+        arrays.first(count, None, &rows)
         if spared_lights is not None and count:
             require(spared_lights.shape[0] >= count, "spared_lights: a row a node")
             rows.spared_lights = &spared_lights[0]

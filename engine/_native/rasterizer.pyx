@@ -140,6 +140,9 @@ cdef int require(bint condition, str message) except -1:
     return 0
 
 
+include "lent_arrays.pxi"
+
+
 def backend_available(int backend) -> bool:
     """Whether this build has the backend and this machine can run it."""
     return bool(e3d_backend_available(<e3d_backend>backend))
@@ -383,8 +386,8 @@ cdef class NativeRenderer:
         int height,
         int samples_axis,
         int msaa_samples,
-        const double[:, ::1] clip_from_world not None,
-        const double[:, ::1] view_from_world not None,
+        clip_from_world: NDArray[np.float64],
+        view_from_world: NDArray[np.float64],
         eye: Sequence[float],
         int64_t number,
         float depth_near,
@@ -483,8 +486,8 @@ cdef class NativeRenderer:
         self,
         NativeDrawList draw_list not None,
         float[:, ::1] depths not None,
-        const double[:, ::1] clip_from_world not None,
-        const double[:, ::1] view_from_world not None,
+        clip_from_world: NDArray[np.float64],
+        view_from_world: NDArray[np.float64],
         eye,
         int cull,
         int64_t number,
@@ -525,14 +528,10 @@ cdef int set_frustum(e3d_frame *frame, const double[:, ::1] clip_from_world) exc
     return 0
 
 
-cdef int set_view(
-    e3d_frame *frame, const double[:, ::1] clip_from_world, const double[:, ::1] view_from_world, eye, int64_t number
-) except -1:
+cdef int set_view(e3d_frame *frame, clip_from_world, view_from_world, eye, int64_t number) except -1:
     """Say from where a frame is seen, and the number by which the core remembers that."""
-    require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
-    require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
-    memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
-    memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+    require(copy_matrix(&frame.clip_from_world[0], clip_from_world), "a matrix is 4x4")
+    require(copy_matrix(&frame.view_from_world[0], view_from_world), "a matrix is 4x4")
     copy_vector(frame.eye, eye, 4)
     frame.view = number
     return 0
@@ -550,6 +549,18 @@ cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height)
 
 
 cdef void *pixels_of(array, const e3d_array_format *format, int width, int height) except NULL:
+    cdef Py_buffer lent
+    cdef char letter = b"f" if format.is_float else b"B" if format.bytes == 1 else b"i"
+    cdef int ndim = 2 if format.channels == 1 else 3
+    PyObject_GetBuffer(array, &lent, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT | PyBUF_WRITABLE)
+    cdef bint fits = is_plain(&lent, letter, ndim) and lent.shape[0] == height and lent.shape[1] == width
+    fits = fits and (ndim == 2 or lent.shape[2] == format.channels)
+    PyBuffer_Release(&lent)
+    return lent.buf if fits else checked_pixels(array, format, width, height)
+
+
+cdef void *checked_pixels(array, const e3d_array_format *format, int width, int height) except NULL:
+    """What `pixels_of` returns; raises where an array is not as it must be."""
     if format.bytes == 1:
         return bytes_of(array, width, height)
     if format.channels > 1:

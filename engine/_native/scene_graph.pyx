@@ -32,6 +32,22 @@ STATIC = E3D_NODE_STATIC
 BOX = E3D_BOX
 OBJECT_BOX = E3D_OBJECT_BOX
 
+include "lent_arrays.pxi"
+
+
+cdef bint copy_doubles(double *to, array, Py_ssize_t count) except -1:
+    """Copy an array (count,); return whether it is of this length."""
+    cdef Py_buffer lent
+    cdef const double[::1] checked
+    PyObject_GetBuffer(array, &lent, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT)
+    cdef bint plain = is_plain(&lent, b"d", 1), fits = plain and lent.shape[0] == count
+    if fits:
+        memcpy(to, lent.buf, count * sizeof(double))
+    PyBuffer_Release(&lent)
+    if not plain:
+        checked = array
+    return fits
+
 
 cdef extern from "Python.h":
     int PyObject_GenericSetAttr(object, object, object) except -1
@@ -238,35 +254,39 @@ cdef class NativeGraph:
         e3d_graph_find_world(&self.graph, slot)
         return bool(self.graph.flags[slot] & E3D_NODE_SHOWN)
 
-    def set_pose(self, int32_t slot, const double[:, ::1] pose not None) -> int:
+    def set_pose(self, int32_t slot, pose: NDArray[np.float64]) -> int:
         """Set parent-from-node, (4, 4), of which the last row is not read; return its version."""
+        cdef double numbers[16]
         self.check(slot)
-        if pose.shape[0] != 4 or pose.shape[1] != 4:
+        if not copy_matrix(numbers, pose):
             raise InvalidArgumentError("a pose is 4x4")
         self.changes += 1
-        e3d_graph_set_pose(&self.graph, slot, &pose[0, 0])
+        e3d_graph_set_pose(&self.graph, slot, numbers)
         return self.graph.pose_version[slot]
 
-    def set_translation(self, int32_t slot, const double[::1] translation not None):
+    def set_translation(self, int32_t slot, translation: NDArray[np.float64]):
+        cdef double numbers[3]
         self.check(slot)
-        if translation.shape[0] != 3:
+        if not copy_doubles(numbers, translation, 3):
             raise InvalidArgumentError("a translation has 3 numbers")
         self.changes += 1
-        e3d_graph_set_translation(&self.graph, slot, &translation[0])
+        e3d_graph_set_translation(&self.graph, slot, numbers)
 
-    def set_parts(self, int32_t slot, const double[::1] rotation, const double[::1] scale):
+    def set_parts(self, int32_t slot, rotation: NDArray[np.float64] | None, scale: NDArray[np.float64] | None):
         """Set rotation and scale; None keeps one."""
-        self.check(slot)
-        if rotation is not None and rotation.shape[0] != 4:
-            raise InvalidArgumentError("a rotation has 4 numbers")
-        if scale is not None and scale.shape[0] != 3:
-            raise InvalidArgumentError("a scale has 3 numbers")
+        cdef double quaternion[4]
+        cdef double factors[3]
         cdef const double *new_rotation = NULL
         cdef const double *new_scale = NULL
+        self.check(slot)
         if rotation is not None:
-            new_rotation = &rotation[0]
+            if not copy_doubles(quaternion, rotation, 4):
+                raise InvalidArgumentError("a rotation has 4 numbers")
+            new_rotation = quaternion
         if scale is not None:
-            new_scale = &scale[0]
+            if not copy_doubles(factors, scale, 3):
+                raise InvalidArgumentError("a scale has 3 numbers")
+            new_scale = factors
         self.changes += 1
         if not e3d_graph_set_parts(&self.graph, slot, new_rotation, new_scale):
             raise InvalidArgumentError("a quaternion must have a finite length greater than zero")
@@ -370,18 +390,22 @@ cdef class NativeGraph:
         e3d_graph_find_parts(&self.graph, slot)
         return sealed((3,), self.graph.scale + 3 * <size_t>slot, 3)
 
-    def update(self, const double[:, ::1] boxes not None, int threads):
+    def update(self, boxes: NDArray[np.float64], int threads):
         """Make every world pose, SHOWN and bounds true; boxes: (objects, OBJECT_BOX).
 
-        On so many threads, or on all that this process may use (0).
+        On so many threads, or on all that this process may use (0). Boxes are looked at where something changed.
         """
+        if self.graph.changed_count == 0:
+            self.updated = self.changes
+        else:
+            self.update_changed(boxes, threads)
+
+    cdef int update_changed(self, const double[:, ::1] boxes, int threads) except -1:
         cdef e3d_graph *g = &self.graph
         if boxes.shape[1] != E3D_OBJECT_BOX:
             raise InvalidArgumentError("boxes must be (objects, OBJECT_BOX)")
         cdef const int32_t[::1] anchored
         self.updated = self.changes
-        if g.changed_count == 0:
-            return
         if self.anchored is not None:
             anchored = self.anchored
             if anchored.shape[0]:
@@ -395,6 +419,7 @@ cdef class NativeGraph:
             self.require_memory(
                 e3d_tree_refit(self.tree, g.bounds, g.count, g.changed, moved, threads)
             )
+        return 0
 
     cdef int require_memory(self, bint done) except -1:
         """Without memory for its tree, a graph has none."""
@@ -411,15 +436,14 @@ cdef class NativeGraph:
             self.require_memory(e3d_tree_build(self.tree, self.graph.bounds, self.graph.count, 1))
         return 0
 
-    def select(self, const double[:, ::1] clip_from_world not None, double widen, bint flat,
-               uint64_t[::1] bits not None) -> int:
+    def select(self, clip_from_world: NDArray[np.float64], double widen, bint flat, uint64_t[::1] bits not None) -> int:
         """Set the bits of the slots that may show, as of the last update, and clear the others.
 
         Returns how many boxes were tested: those of nodes and, unless ``flat``, of the tree's
         branches.
         """
         cdef e3d_view_volume view
-        if clip_from_world.shape[0] != 4 or clip_from_world.shape[1] != 4:
+        if not copy_matrix(&view.clip_from_world[0], clip_from_world):
             raise InvalidArgumentError("a matrix is 4x4")
         if 64 * bits.shape[0] < self.graph.count:
             raise InvalidArgumentError("a selection has a bit a slot")
@@ -427,7 +451,6 @@ cdef class NativeGraph:
         if bits.shape[0] == 0:
             return 0
         memset(&bits[0], 0, bits.shape[0] * sizeof(uint64_t))
-        memcpy(view.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
         view.widen, view.flat = widen, flat
         return e3d_tree_select(self.tree, self.graph.bounds, &view, &bits[0])
 
@@ -538,27 +561,24 @@ def invert(const double[:, ::1] m not None, double[:, ::1] out not None) -> bool
 
 
 def camera_view(
-    const double[:, ::1] clip_from_view not None,
-    const double[:, ::1] world_from_view not None,
-    double[:, ::1] view_from_world not None,
-    double[:, ::1] clip_from_world not None,
-) -> tuple[tuple[float, float, float], tuple[float, float, float, float]] | None:
-    """Fill the matrices of a camera at a pose; return the direction to the viewer and the eye.
+    clip_from_view: NDArray[np.float64], world_from_view: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], tuple[float, ...], tuple[float, ...]] | None:
+    """Return what a camera at a pose sees by: view_from_world, clip_from_world, direction to the viewer, eye.
 
     None where the pose has no inverse.
     """
     cdef e3d_camera camera
-    if (
-        clip_from_view.shape[0] != 4 or clip_from_view.shape[1] != 4
-        or world_from_view.shape[0] != 4 or world_from_view.shape[1] != 4
-        or view_from_world.shape[0] != 4 or view_from_world.shape[1] != 4
-        or clip_from_world.shape[0] != 4 or clip_from_world.shape[1] != 4
-    ):
+    cdef double projection[16]
+    cdef double pose[16]
+    if not (copy_matrix(projection, clip_from_view) and copy_matrix(pose, world_from_view)):
         raise InvalidArgumentError("a matrix is 4x4")
-    if not e3d_camera_view(&clip_from_view[0, 0], &world_from_view[0, 0], &camera):
+    if not e3d_camera_view(projection, pose, &camera):
         return None
-    memcpy(&view_from_world[0, 0], camera.view_from_world, sizeof(camera.view_from_world))
-    memcpy(&clip_from_world[0, 0], camera.clip_from_world, sizeof(camera.clip_from_world))
     cdef double *t = camera.towards_viewer
     cdef double *e = camera.eye
-    return (t[0], t[1], t[2]), (e[0], e[1], e[2], e[3])
+    return (
+        sealed((4, 4), &camera.view_from_world[0], 16),
+        sealed((4, 4), &camera.clip_from_world[0], 16),
+        (t[0], t[1], t[2]),
+        (e[0], e[1], e[2], e[3]),
+    )

@@ -50,11 +50,10 @@ class View:
         self.projection: NDArray[np.float64] = projection
         self.camera = camera
         self._pose_bytes = pose.tobytes()
-        self.view_from_world, self.clip_from_world = np.empty((4, 4)), np.empty((4, 4))
-        look = camera_view(projection, pose, self.view_from_world, self.clip_from_world)
+        look = camera_view(projection, pose)
         if look is None:
             raise InvalidArgumentError("the camera's pose has no inverse: it is singular")
-        self.towards_viewer, self.eye = look
+        self.view_from_world, self.clip_from_world, self.towards_viewer, self.eye = look
 
     @functools.cached_property
     def rays(self) -> NDArray[np.float32]:

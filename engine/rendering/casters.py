@@ -18,4 +18,4 @@ def placed_casters(arrays: NodeRows, selection: np.ndarray | None = None) -> byt
         A bit for each node; only these nodes count.
     """
     found = np.empty((arrays.count, 3), np.int32)
-    return found[: find_casters(arrays.count, arrays.columns, selection, found)].tobytes()
+    return found[: find_casters(arrays.rows, arrays.count, selection, found)].tobytes()

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..._native.rasterizer import NativeRows
 from ..._native.scene_graph import ALIVE, BOX, NativeGraph
 
 #: Name of each array -> dtype and shape of a row.
@@ -52,6 +53,8 @@ class NodeArrays(NativeGraph):
     ----------
     columns : dict of str to ndarray
         Named as in csrc/include/e3d_scene.h; only the first ``count`` rows are nodes.
+    rows : NativeRows
+        The columns that drawing reads, as C takes them.
     nodes : list of Node or None
         The handle of each slot; None while the node is removed.
     """
@@ -111,7 +114,7 @@ class NodeArrays(NativeGraph):
         self.attach(
             **{name: column for name, column in columns.items() if name not in _NOT_ATTACHED}
         )
-        self.columns = columns
+        self.columns, self.rows = columns, NativeRows(columns)
 
 
 def matrices_of(rows: np.ndarray) -> np.ndarray:

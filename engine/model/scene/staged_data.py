@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ..._native.rasterizer import NativeRows
 from ..._native.scene_graph import BOX, SHOWN
 from ..materials.material import Finish, Material
 from ..materials.textures import Reading
@@ -131,6 +132,8 @@ class _JoinedRows:
     Attributes
     ----------
     columns : dict of str to ndarray
+    rows : NativeRows
+        The columns, as C takes them; once they are joined.
     count : int
     changes, updated : (tuple, tuple)
         The state of each tree's rows: now, and when they were joined.
@@ -138,6 +141,7 @@ class _JoinedRows:
 
     def __init__(self, staged: StagedData) -> None:
         self.columns: dict[str, NDArray[Any]] = {}
+        self.rows: NativeRows
         self.count = 0
         self.updated: tuple[State, State] = ((), ())
         self._made_of: Callable[[], Any] = weakref.ref(staged)
@@ -160,6 +164,7 @@ class _JoinedRows:
             for name in _COLUMNS:
                 column = staged.own.arrays.columns[name]
                 self.columns[name] = np.empty((count, *column.shape[1:]), column.dtype)
+            self.rows = NativeRows(self.columns)
         if state[0] != before[0]:
             self._copy_scene(staged)
         if state[1] != before[1]:

@@ -153,7 +153,7 @@ class DrawList:
             return None
         arrays = data.arrays
         return self.native.open_apertures(
-            arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
+            arrays.rows, arrays.count, view.clip_from_world, view.view_from_world, *size
         )
 
     @property

@@ -76,7 +76,7 @@ class Placement:
         selected = None if selection is None else selection.tobytes()
         is_same = selected is not None and selected == self._selected
         if moved or anew or not is_same or batching != self._how[2]:
-            self._native.place(arrays.count, arrays.columns, selection, frustum, *how, moved)
+            self._native.place(arrays.rows, arrays.count, selection, frustum, *how, moved)
         self.changes += moved
         self._selected, self._frustum, self._how = selected, frustum, how
         self._placed.done()

@@ -77,6 +77,6 @@ class ExactShadows(Pass):
             bits = np.zeros(arrays.count, np.uint32)
             for number, slots in enumerate(spared):
                 bits[list(slots)] |= np.uint32(1 << number)
-        draw_list.native.place_hiding(arrays.count, arrays.columns, self._version, bits)
+        draw_list.native.place_hiding(arrays.rows, arrays.count, self._version, bits)
         self._casters.done()
         self._moment.done()

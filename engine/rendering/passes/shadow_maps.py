@@ -277,7 +277,7 @@ class ShadowMaps(Pass):
         if has_changed or not drawn.serves(lookups):
             region = drawn.choose_region(seen, lookups)
             native = self.tools.draw_list.native
-            native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
+            native.place_casters(arrays.rows, arrays.count, selection, seen.clip_from_world)
             faces = self.tools.native.draw_shadow_map(
                 native, kept.depths[number], *seen, cull, id(drawn), region
             )

@@ -25,5 +25,6 @@ cdef class NativeGraph:
     cdef readonly uint64_t updated, links
     cdef int check(self, int32_t slot) except -1
     cdef int check_all(self, const int32_t[::1] slots, Py_ssize_t rows) except -1
+    cdef int update_changed(self, const double[:, ::1] boxes, int threads) except -1
     cdef int require_memory(self, bint done) except -1
     cdef int need_tree(self) except -1

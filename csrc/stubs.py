@@ -102,7 +102,7 @@ def function(found, body):
     name = "__init__" if found["name"] == "__cinit__" else found["name"]
     if name == "__getbuffer__":
         return ["    def __buffer__(self, flags: int, /) -> memoryview: ..."]
-    if name.startswith("_") and name != "__init__":
+    if name.startswith("_") and name not in ("__init__", "__enter__", "__exit__"):
         return []
     takes = ", ".join(map(parameter, filter(None, split(re.sub(r"#.*", "", found["takes"])))))
     own = re.split(rf"^(?! {{{len(found['indent']) + 1},}}|\n)", body, maxsplit=1, flags=re.M)[0]

@@ -7,34 +7,29 @@ forked in the middle of a frame: the threads that draw the rest of it do not exi
 
 from __future__ import annotations
 
-import threading
 import weakref
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
+from threading import RLock
 
-from .._native.rasterizer import FORKED, NativeRenderer
+from .._native.rasterizer import FORKED, WITHIN, NativeRenderer, Turn
 from ..base.system import after_fork
 from ..errors import RendererBusyError
 
-_WITHIN = (
-    "the renderer is drawing already, and this comes from within that frame (a signal handler, or "
-    "what a frame calls): leave a note and draw after the frame, or draw with another Renderer"
-)
 
+class RendererTurn(Turn):
+    """The turns of one renderer: ``with turn:`` holds one to draw."""
 
-class RendererTurn:
-    """The turns of one renderer."""
+    lock: AbstractContextManager[object]
 
     def __init__(self) -> None:
         self._natives: list[NativeRenderer] = []
-        # reentrant, so that a nested call gets an error instead of a deadlock
-        self._lock = threading.RLock()
-        self._drawing = self._staging = self._forked = False
+        self._staging = False
         _turns.add(self)
 
     @contextmanager
     def taken(self, *, closing: bool = False, staging: bool = False) -> Iterator[None]:
-        """Hold the turn within the block.
+        """Hold the turn within the block, for anything but drawing.
 
         Parameters
         ----------
@@ -47,12 +42,12 @@ class RendererTurn:
         ------
         RendererBusyError
         """
-        with self._lock:
-            if (self._drawing or self._staging and staging) and not self._forked:
-                raise RendererBusyError(_WITHIN)
+        with self.lock:
+            if (self.is_drawing or self._staging and staging) and not self.is_forked:
+                raise RendererBusyError(WITHIN)
             if not closing:
                 self.check()
-            held = "_staging" if staging else "_drawing"
+            held = "_staging" if staging else "is_drawing"
             try:
                 setattr(self, held, True)
                 yield
@@ -61,7 +56,7 @@ class RendererTurn:
 
     def check(self) -> None:
         """Raise if the process was forked from within a frame."""
-        if self._forked:
+        if self.is_forked:
             raise RendererBusyError(FORKED)
 
     def hold(self, native: NativeRenderer) -> None:
@@ -74,9 +69,9 @@ class RendererTurn:
 
     def _fork(self) -> None:
         """Reset the turn in a forked process: the threads that held or awaited it are gone."""
-        self._lock = threading.RLock()
-        if (self._drawing or self._staging) and self._natives:
-            self._forked = True
+        self.lock = RLock()
+        if (self.is_drawing or self._staging) and self._natives:
+            self.is_forked = True
             for native in self._natives:
                 native.abandon()
 

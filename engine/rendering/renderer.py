@@ -143,7 +143,7 @@ class Renderer(Closed):
     def resize(self, size: tuple[int, int]) -> None:
         """Change the size of future frames."""
         size = check_size(size)
-        with self._turn.taken():
+        with self._turn:
             self._size = size
             self._forget_arrays()
 
@@ -196,7 +196,7 @@ class Renderer(Closed):
         ------
         InvalidArgumentError, OutOfMemoryError
         """
-        with self._turn.taken():
+        with self._turn:
             self._check_drawable(scene)
             painter = self._painter
             options = painter.options.named(options, keywords)
@@ -263,7 +263,7 @@ class Renderer(Closed):
         KeyboardInterrupt
             Ctrl-C stops a frame between its tiles.
         """
-        with self._turn.taken():
+        with self._turn:
             self._check_drawable(scene)
             options = self._painter.options.named(options, keywords)
             return self._draw(scene, camera, options, out, culling_camera)

@@ -7,7 +7,6 @@ an option or a colour changes, and kept from frame to frame otherwise.
 from __future__ import annotations
 
 import math
-import operator
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import Any, TypeAlias, TypeVar, cast
@@ -26,7 +25,7 @@ from ..model.scene.fog import Fog
 from ..model.scene.gradients import Gradient
 from ..model.scene.lights import WHITE_INTENSITY
 from ..model.scene.staged_scene import AnyScene
-from ..model.scene.surroundings import SCENE_VALUES
+from ..model.scene.surroundings import values_of
 from ._tone_inverse import light_that_shows
 from .draw_list.draw_list import Listing
 from .draw_list.light_list import Headlight
@@ -51,7 +50,6 @@ Convert: TypeAlias = Callable[[tuple[Any, ...], ColorSpace], Color]
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
-_scene_values = operator.attrgetter(*SCENE_VALUES)
 _MAX_KEPT = 16  # for programs that alternate between pictures
 # Settings that differ if surfaces are drawn without colour.
 _WITHOUT_COLOR = {
@@ -286,7 +284,7 @@ class OptionsCache:
         beyond: Environment | None = None,
     ) -> FrameOptions:
         """Return the frame options for a scene's current state and a picture's height."""
-        seen = options, height, beyond, *_scene_values(scene)
+        seen = options, height, beyond, *values_of(scene)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
             how = self._color_space, options, self._threads, height, beyond

@@ -125,6 +125,7 @@ class Renderer(rendering.Renderer):
         antialiasing: Antialiasing = "msaa",
     ) -> None:
         self._worn, self._paint = check_look(look), check_material(material)
+        self._is_plain = self._worn == _PLAIN
         super().__init__(
             size,
             backend=backend,
@@ -300,7 +301,7 @@ class Renderer(rendering.Renderer):
             return True
         if not isinstance(thing, Scene) or self._paint is not None:
             return False
-        return self._worn == _PLAIN or is_lit(thing)
+        return self._is_plain or is_lit(thing)
 
     @property
     def _stages(self) -> KeptStages:
@@ -318,7 +319,7 @@ class Renderer(rendering.Renderer):
 
     def _is_bare(self, thing: Any, marks: Marks) -> bool:
         """Return whether a thing is drawn as a scene would be that holds it."""
-        return self._worn == _PLAIN and not comes_from_file(thing) and not marks.shows_any
+        return self._is_plain and not comes_from_file(thing) and not marks.shows_any
 
     def _view(self, stage: Stage, thing: Any, camera: CameraChoice, is_bare: bool) -> AnyView:
         """Return the view of a stage: that of a camera, else the thing's first one."""
@@ -346,7 +347,7 @@ def _take_marks(keywords: DrawingKeywords) -> tuple[Marks, Any]:
     """Return what keywords say about numbers, and the options of the others."""
     named: Any = dict(keywords)
     marks = take_marks(named)
-    if flag(named.pop("edges", False), "edges"):
+    if "edges" in named and flag(named.pop("edges"), "edges"):
         named = {"wireframe": "overlay", "line_color": DARK, **named}
     return marks, named
 

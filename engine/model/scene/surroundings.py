@@ -5,6 +5,7 @@ In: values, at any time. Out: the same, checked.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from typing import TypeAlias
 
@@ -31,6 +32,8 @@ SCENE_VALUES = (
     "fog",
 )
 MAX_EXPOSURE = 64
+#: Returns them all, as each picture asks: from where the properties keep them, without their calls.
+values_of = operator.attrgetter(*(f"_{name}" for name in SCENE_VALUES))
 
 
 #: The kinds of backgrounds.

@@ -51,15 +51,18 @@ class LightList:
         self._lights: list[DirectLight] = []  # not their nodes, which would keep the scene alive
         self._around_slots = np.empty(0, np.int32)
         self._around: list[AmbientLight] = []  # also without nodes
+        # By number, each visible light and its place; and all of them in order, once asked for.
+        self._at: dict[int, tuple[DirectLight, Where]] = {}
+        self._all_at: list[tuple[int, DirectLight, Where]] | None = None
         self.forget()
 
     def forget(self) -> None:
         """Force listing all lights anew at the next update."""
         self._listed: tuple[object, ...] | None = None
         self._shown = np.empty(0, bool)
-        # By slot, each visible light and its place.
-        self._at: dict[int, tuple[DirectLight, Where]] = {}
+        self._forget_places()
         self._changes: object = 0
+        self._turned: Sequence[float] = ()  # the direction towards the headlight
         self._placed = np.empty(0, np.uint32)
         self._added: tuple[object, ...] = _NOT_KNOWN
 
@@ -82,13 +85,17 @@ class LightList:
             self._changes = changes
         elif not same:
             self._native.clear_lights()
-            self._at = {}
+            self._forget_places()
             if headlight is not None:
                 self._add_native(headlight[0], _HEADLIGHT)
-                self._native.turn_light(0, headlight[1])
-        elif headlight is not None:
-            self._native.turn_light(0, headlight[1])
+                self._turn_headlight(headlight)
+        elif headlight is not None and headlight[1] is not self._turned:
+            self._turn_headlight(headlight)
         self._listed = listed
+
+    def _turn_headlight(self, headlight: Headlight) -> None:
+        self._turned = headlight[1]
+        self._native.turn_light(0, self._turned)
 
     def _renew(self, data: AnyData, same: bool) -> None:
         """List the visible lights if they have changed, and place those that moved."""
@@ -101,7 +108,7 @@ class LightList:
         else:
             moved = np.arange(len(slots))
             self._native.clear_lights()
-            self._at = {}
+            self._forget_places()
             for light in shown.nonzero()[0].tolist():
                 self._add(self._lights[light])
         if len(moved):
@@ -161,7 +168,12 @@ class LightList:
         A directional light has a unit direction towards it, others a position; the other value is
         None.
         """
-        return [(number, *at) for number, at in sorted(self._at.items())]
+        if self._all_at is None:
+            self._all_at = [(number, *at) for number, at in sorted(self._at.items())]
+        return self._all_at
+
+    def _forget_places(self) -> None:
+        self._at, self._all_at = {}, None
 
     def slot_of(self, number: int) -> int:
         """Return the slot of a visible light, by its number."""
@@ -185,7 +197,7 @@ class LightList:
         if towards is not None:
             towards = normalize(towards)
             self._native.turn_light(number, towards)
-        self._at[number] = light, (towards, position)
+        self._at[number], self._all_at = (light, (towards, position)), None
 
 
 def _extent(light: AreaLight, pose: list[float]) -> tuple[list[tuple[float, ...]], float]:

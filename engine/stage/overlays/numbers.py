@@ -112,6 +112,7 @@ class Marks(NamedTuple):
 
 
 NO_MARKS = Marks(None, False, False)
+_NAMES = frozenset(MarkKeywords.__annotations__)
 
 
 def take_marks(keywords: dict[str, Any]) -> Marks:
@@ -123,7 +124,9 @@ def take_marks(keywords: dict[str, Any]) -> Marks:
         Those of `MarkKeywords`, and others, which stay. All but ``axes_grid`` show numbers as
         colours, unless they are None or False.
     """
-    taken = {name: keywords.pop(name) for name in MarkKeywords.__annotations__ if name in keywords}
+    if _NAMES.isdisjoint(keywords):
+        return NO_MARKS
+    taken = {name: keywords.pop(name) for name in _NAMES if name in keywords}
     bar = flag(taken.pop("bar", False), "bar")
     axes_grid = flag(taken.pop("axes_grid", False), "axes_grid")
     given = {name: value for name, value in taken.items() if value is not None}

@@ -189,7 +189,8 @@ class Material(ShownInNotebooks, Versioned):
         default=0.0,
         gltf="transmission/transmissionFactor",
         doc="Share of the light that passes; metals let none pass: give ``metallic=0``, too. "
-        "``roughness`` blurs it where ``ior`` is not 1 or 0.",
+        "``roughness`` blurs it where ``ior`` is not 1 or 0. Its shadow is that of an opaque body, "
+        "unless its node has ``cast_shadows=False``.",
     )
     thickness: Number = Parameter(
         NOT_NEGATIVE,

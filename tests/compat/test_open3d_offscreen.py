@@ -294,3 +294,17 @@ def test_what_is_no_material_is_refused(wrong):
             call(wrong)
     with pytest.raises(InvalidArgumentError, match="material must be a MaterialRecord"):
         scene.add_geometry("new", wall(0.0), wrong)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: rendering.OffscreenRenderer("a", 3),
+        lambda: rendering.OffscreenRenderer(float("nan"), 4),
+        lambda: rendering.OffscreenRenderer(8, 8).scene.set_background("red"),
+        lambda: rendering.OffscreenRenderer(8, 8).scene.scene.set_sun_light("down", [1] * 3, 1.0),
+    ],
+)
+def test_what_is_no_number_is_an_error_of_the_argument(call):
+    with pytest.raises(InvalidArgumentError):
+        call()

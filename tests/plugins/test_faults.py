@@ -295,6 +295,14 @@ def test_files_of_options_cannot_leave_plugins_out(tmp_path, capsys, where):
     assert "there is no" in capsys.readouterr().err
 
 
+def test_extensions_that_are_never_used_are_not_known(package, tmp_path):
+    package(READER, readers={"VOX": "{0}:read"})
+    (tmp_path / "a.vox").write_text("2")
+    with pytest.raises(e3d.FileFormatError) as told:
+        e3d.load_mesh(tmp_path / "a.vox")
+    assert "VOX" not in str(told.value).partition("known:")[2]
+
+
 @pytest.mark.filterwarnings("error::DeprecationWarning")
 def test_packages_need_no_summary(package, vox):
     """Python is to raise errors of fields that metadata lack; now it warns of them."""

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...base.calls import checks_types
+from ...base.plugins.groups import group_named
 from ...base.plugins.plugin import Plugin
 from ...base.plugins.registry import find_plugin, origins_of, plugin_names
 from ...errors import FileFormatError, InvalidArgumentError
@@ -105,6 +106,7 @@ def plugin_formats(group: str) -> list[Format]:
     return [
         Format(name, f"by {origins_of(group, name)}", "mesh", (f".{name}",))
         for name in plugin_names(group)
+        if group_named(group).allows(name)
     ]
 
 

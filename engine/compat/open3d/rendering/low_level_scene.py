@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ....base import linalg
+from ....base.numbers import floats
 from ....errors import InvalidArgumentError, warn
 from .._loading import load
 from ._ktx import environment_of_ktx
@@ -289,7 +290,7 @@ class Scene:
 
 
 def _three(value: ArrayLike) -> tuple[float, ...]:
-    vector: NDArray[np.float64] = np.asarray(value, np.float64).reshape(-1)
+    vector = floats(value, "three finite numbers").reshape(-1)
     if vector.shape != (3,) or not np.isfinite(vector).all():
         raise InvalidArgumentError(f"three finite numbers are needed, not {value!r}")
     return tuple(vector.tolist())

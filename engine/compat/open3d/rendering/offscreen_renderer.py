@@ -31,7 +31,7 @@ class OffscreenRenderer:
     def __init__(
         self, width: int, height: int, resource_path: str = "", headless: bool = True
     ) -> None:
-        self._size = check_size((int(width), int(height)))
+        self._size = check_size((width, height))
         self._scene = Open3DScene(resource_path=str(resource_path))
         self._drawer = Drawer()
 

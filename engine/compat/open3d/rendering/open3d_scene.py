@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ....base.numbers import floats
 from ....errors import InvalidArgumentError, warn
 from ....io.scenes.open3d_materials import bytes_of_image
 from .._loading import load
@@ -156,7 +157,7 @@ class Open3DScene:
 
     def set_background(self, color: ArrayLike, image: Any = None) -> None:
         """Set the background: a display colour, (4,), and an image in the middle."""
-        given = np.asarray(color, np.float32).reshape(-1)
+        given = floats(color, "a background").astype(np.float32).reshape(-1)
         if given.shape != (4,) or not np.isfinite(given).all():
             raise InvalidArgumentError(f"a background is four finite numbers, not {color!r}")
         self._background = given

@@ -46,6 +46,9 @@ cdef bint copy_doubles(double *to, array, Py_ssize_t count) except -1:
     PyBuffer_Release(&lent)
     if not plain:
         checked = array
+        fits = checked.shape[0] == count
+        if fits:
+            memcpy(to, &checked[0], count * sizeof(double))
     return fits
 
 

@@ -49,6 +49,15 @@ def test_any_call_ends_well(agent, seed):
     agent.ask(calls)
 
 
+def test_what_stands_far_out_can_be_hidden_and_colored(loaded):
+    far = e3d.Scene()
+    far.add(e3d.box(), scale=1e31)
+    e3d.save_scene(far, loaded.root / "far.e3d.json")
+    loaded.told("load", path="far.e3d.json", name="far")
+    loaded.told("edit", name="far", color="red")
+    loaded.told("edit", name="far", visible=False)
+
+
 HUGE = [
     {"scale": 1e200},
     {"translate": [0, -1.7e308, 0]},

@@ -76,6 +76,15 @@ def test_a_triangle_far_out_costs_no_time_and_changes_nothing(bad):
     assert (found["ends"] == alone["ends"]).all()
 
 
+@pytest.mark.parametrize("count", [1, 2, 5, 6, 7, 10, 21])
+def test_places_beyond_float32_cross_as_near_ones_do(count):
+    triangles = np.random.default_rng(count).uniform(-1, 1, (count, 3, 3))
+    near = crossings(triangles, np.arange(count))
+    for scale in (2.0**127, 2.0**140):
+        far = crossings(triangles * scale, np.arange(count), 1e-12 * scale)
+        assert np.array_equal(far["faces"], near["faces"])
+
+
 def test_order_and_threads_change_nothing():
     rng = np.random.default_rng(1)
     triangles = rng.uniform(-1, 1, (3000, 1, 3)) + rng.normal(0, 0.1, (3000, 3, 3))

@@ -57,3 +57,23 @@ def test_a_pose_without_inverse():
     for pose in (np.zeros((4, 4)), np.diag((1.0, 1.0, 0.0, 1.0)), np.full((4, 4), np.nan)):
         with pytest.raises(e3d.InvalidArgumentError, match="no inverse"):
             View(CAMERAS[0], pose, 64, 64)
+
+
+class PackedCamera(e3d.PerspectiveCamera):
+    """Keeps its projection in a record, where it has no place that suits its numbers."""
+
+    def projection(self, size):
+        record = np.zeros(1, [("kind", "u1"), ("matrix", "f8", (4, 4))])
+        record["matrix"] = super().projection(size)
+        return record["matrix"][0]
+
+
+def test_a_projection_may_lie_anywhere_in_memory():
+    scene = e3d.Scene()
+    scene.add(e3d.box())
+    pose = e3d.look_at((1, 1, 4), (0, 0, 0))
+    pictures = [
+        e3d.Renderer((40, 30)).render(scene, (camera(0.7), pose)).color
+        for camera in (e3d.PerspectiveCamera, PackedCamera)
+    ]
+    assert np.array_equal(*pictures)

@@ -110,11 +110,13 @@ static void order(const double *places, const int32_t *faces, size_t count, code
         items[i] = sorted[i].item;
 }
 
-/* The nearest float or one beyond it, downward. */
+/* The nearest float or one beyond it, downward; finite, since infinite ones stand for lanes without a box. */
 static float below(double at)
 {
     double lower = at - (fabs(at) * 0x1p-23 + 0x1p-148);
-    return (float)(lower < FLT_MAX ? lower : FLT_MAX);
+    if (lower < FLT_MAX)
+        return (float)(lower > -FLT_MAX ? lower : -FLT_MAX);
+    return FLT_MAX;
 }
 
 static void set_lane(drw_four *four, int lane, const box *one, double margin)

@@ -240,6 +240,8 @@ def _edited(part: Part, given: dict[str, Any], moved: NDArray[np.float64]) -> Pa
 
 
 def _moved(pose: NDArray[np.float64], moved: NDArray[np.float64]) -> NDArray[np.float64]:
+    if np.array_equal(moved, np.eye(4)):
+        return pose
     with np.errstate(over="ignore", invalid="ignore"):
         found = linalg.multiply(moved, pose)
     if not (np.abs(found) <= _FARTHEST).all():

@@ -111,10 +111,11 @@ class NodeArrays(NativeGraph):
         for name, (dtype, row) in _COLUMNS.items():
             columns[name] = np.zeros((room, *row), dtype)
             columns[name][: self.count] = self.columns.get(name, columns[name])[: self.count]
+        rows = NativeRows(columns)
         self.attach(
             **{name: column for name, column in columns.items() if name not in _NOT_ATTACHED}
         )
-        self.columns, self.rows = columns, NativeRows(columns)
+        self.columns, self.rows = columns, rows
 
 
 def matrices_of(rows: np.ndarray) -> np.ndarray:

@@ -160,11 +160,12 @@ class _JoinedRows:
         self.updated = ((), ())  # in case anything below raises
         count = sum(tree.arrays.count for tree in staged.trees)
         if count != self.count or not self.columns:
-            self.count, before = count, ((), ())
-            for name in _COLUMNS:
-                column = staged.own.arrays.columns[name]
-                self.columns[name] = np.empty((count, *column.shape[1:]), column.dtype)
-            self.rows = NativeRows(self.columns)
+            before = ((), ())
+            own = staged.own.arrays.columns
+            columns = {
+                name: np.empty((count, *own[name].shape[1:]), own[name].dtype) for name in _COLUMNS
+            }
+            self.rows, self.columns, self.count = NativeRows(columns), columns, count
         if state[0] != before[0]:
             self._copy_scene(staged)
         if state[1] != before[1]:

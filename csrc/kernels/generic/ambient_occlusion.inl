@@ -68,8 +68,10 @@ static ALWAYS_INLINE void occlusion_normals(const e3d_depth_picture *p, int row,
     if (2 * (x + AHEAD) < p->width)
         for (int k = 0; k < SITE * V_LANES; k += LINE)
             __builtin_prefetch(first + SITE * (x + AHEAD) + k);
+    int32_t index[V_LANES];
+    v_storei(index, place);
     for (int c = 0; c < 3; c++)
-        out[c] = v_asf(v_gatheri(first + c, place));
+        out[c] = v_asf(v_fetch(first + c, index));
     out[2] = occlusion_minus(out[2]);
 }
 
@@ -156,8 +158,10 @@ static ALWAYS_INLINE occlusion_place occlusion_look(const e3d_occlusion_plan *pl
     vf32 x = v_min(v_max(v_add(at->x, step_x), zero), v_setf((float)(plan->width - 1)));
     vf32 y = v_min(v_max(v_add(at->y, step_y), zero), v_setf((float)(plan->height - 1)));
     vi32 column = v_rint(x), row = v_rint(y);
+    int32_t index[V_LANES];
+    v_storei(index, v_addi(v_muli(row, v_seti(plan->pitch)), column));
     return (occlusion_place){v_mul(v_setf(plan->across[0]), v_sub(v_float(column), at->x)), v_mul(v_setf(plan->down[0]), v_sub(v_float(row), at->y)),
-                             v_asf(v_gatheri(plan->depth, v_addi(v_muli(row, v_seti(plan->pitch)), column)))};
+                             v_asf(v_fetch(plan->depth, index))};
 }
 
 /* The distance in sites within which things count, at most E3D_OCCLUSION_REACH. */
@@ -251,8 +255,10 @@ static ALWAYS_INLINE vi32 occlusion_above_face(const e3d_occlusion_plan *plan, c
 /* The light of sectors, as the table has it. */
 static ALWAYS_INLINE vi32 occlusion_light_sum(const e3d_occlusion_plan *plan, vi32 sectors)
 {
-    return v_addi(v_gatheri(plan->light[0], v_andi(sectors, v_seti(E3D_OCCLUSION_HALF - 1))),
-                  v_gatheri(plan->light[1], v_shr(sectors, E3D_OCCLUSION_QUADRANT)));
+    int32_t index[2][V_LANES];
+    v_storei(index[0], v_andi(sectors, v_seti(E3D_OCCLUSION_HALF - 1)));
+    v_storei(index[1], v_shr(sectors, E3D_OCCLUSION_QUADRANT));
+    return v_addi(v_fetch(plan->light[0], index[0]), v_fetch(plan->light[1], index[1]));
 }
 
 /* The light of sectors, which lie beyond the line of sight from a sector on. */

@@ -1,5 +1,5 @@
 /* Tables and curves that are looked up in memory: the words v_table, v_lookup, v_curve and v_curve_rgba of processors whose
- * registers don't hold them. A file that includes this one has the other words, curve_fetch and curve_rise. */
+ * registers don't hold them. A file that includes this one has the other words, v_fetch and curve_rise. */
 #pragma once
 
 /* A table of at most 128 numbers of 32 bits, of which `count` are looked up often. */
@@ -18,7 +18,7 @@ static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
     for (int k = 0; k < 3; k++)
         v_storei(at[k], v_andi(v_shr(place[k], 16), v_seti(63)));
     for (int k = 0; k < 3; k++) {
-        vi32 piece = curve_fetch(*curve, at[k]), rise = curve_rise(piece, v_andi(place[k], v_seti(0xFFFF)));
+        vi32 piece = v_fetch(*curve, at[k]), rise = curve_rise(piece, v_andi(place[k], v_seti(0xFFFF)));
         code[k] = v_shr(v_addi(v_shr(piece, 16), rise), 8);
     }
     return v_rgba(code);

@@ -35,6 +35,8 @@ static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
 /* Looks up bytes in 64, which are aligned to four; reads whole fours, or all. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) { return bytes[i]; }
 static inline vi32 v_gatheri(const void *base, vi32 i) { return v_loadi((const char *)base + 4 * (intptr_t)i); }
+/* Gathers from places that lie in memory, by single loads. */
+static inline vi32 v_fetch(const void *base, const int32_t *at) { return v_gatheri(base, at[0]); }
 
 /* Compares four floats from base[at] on, and the fours below them in rows `pitch` floats apart, with a number: a bit each,
  * set if the float is no less. */
@@ -184,7 +186,6 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     return (vi32)pixel;
 }
 
-static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) { return pieces[at[0]]; }
 static inline vi32 curve_rise(vi32 piece, vi32 along) { return (int32_t)(((uint32_t)piece & 0xFFFF) * (uint32_t)along >> 16); }
 #include "kernels/simd/tables_memory.h"
 

@@ -43,8 +43,8 @@ static inline __m256i quads_apart(const void *texels, const void *below, const i
 static inline __m256i rows_pairs(const void *texels, const int32_t *at) {
     return _mm256_set_m128i(pairs_one(texels, (uint32_t)at[4]), pairs_one(texels, (uint32_t)at[0]));
 }
-static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) {
-    return _mm256_set_m128i(fetch_four(pieces, at + 4), fetch_four(pieces, at));
+static inline vi32 v_fetch(const void *base, const int32_t *at) {
+    return _mm256_set_m128i(fetch_four(base, at + 4), fetch_four(base, at));
 }
 static inline vi32 inserted_lanes(const int32_t a[V_LANES]) { return _mm256_setr_epi32(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]); }
 #include "kernels/simd/words_narrow.h"

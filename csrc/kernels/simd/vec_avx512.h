@@ -70,6 +70,10 @@ static inline vi32 v_loadu8(const uint8_t *p) {
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm512_i32gather_epi32(i, base, 4);
 }
+static inline vi32 v_fetch(const void *base, const int32_t *at) {
+    __m256i low = _mm256_set_m128i(fetch_four(base, at + 4), fetch_four(base, at));
+    return halves_join(low, _mm256_set_m128i(fetch_four(base, at + 12), fetch_four(base, at + 8)));
+}
 /* One register holds all bytes: a shuffle of 16-bit words brings each lane the two bytes that contain its own. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
     __m512i two = _mm512_permutexvar_epi16(_mm512_srli_epi32(i, 1), _mm512_loadu_si512(bytes));

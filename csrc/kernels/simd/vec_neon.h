@@ -36,6 +36,10 @@ static inline vi32 v_gatheri(const void *base, vi32 i) {
     const int32_t *b = (const int32_t *)base;
     return four_numbers(b[vgetq_lane_s32(i, 0)], b[vgetq_lane_s32(i, 1)], b[vgetq_lane_s32(i, 2)], b[vgetq_lane_s32(i, 3)]);
 }
+static inline vi32 v_fetch(const void *base, const int32_t *at) {
+    const int32_t *b = (const int32_t *)base;
+    return four_numbers(b[at[0]], b[at[1]], b[at[2]], b[at[3]]);
+}
 /* Four registers hold all bytes; an index whose byte has all bits set finds 0. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
     return vreinterpretq_s32_u8(vqtbl4q_u8(vld1q_u8_x4(bytes), vreinterpretq_u8_s32(vorrq_s32(i, v_seti(~255)))));
@@ -233,9 +237,6 @@ static ALWAYS_INLINE vi32 v_ge16(const float *base, int32_t pitch, vi32 at, vf32
 static inline vi32 v_rgba(const vi32 c[3]) {
     vi32 none = v_seti(0), pixel = vsliq_n_s32(vmaxq_s32(c[0], none), vmaxq_s32(c[1], none), 8);
     return vsliq_n_s32(vsliq_n_s32(pixel, vmaxq_s32(c[2], none), 16), v_seti(255), 24);
-}
-static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) {
-    return four_numbers(pieces[at[0]], pieces[at[1]], pieces[at[2]], pieces[at[3]]);
 }
 static inline vi32 curve_rise(vi32 piece, vi32 along) { return v_shr(v_muli(v_andi(piece, v_seti(0xFFFF)), along), 16); }
 #include "kernels/simd/tables_memory.h"

@@ -41,7 +41,7 @@ static inline __m128i quads_apart(const void *texels, const void *below, const i
     return _mm_unpacklo_epi64(pairs_eight(texels, at[0]), pairs_eight(below, at[0]));
 }
 static inline __m128i rows_pairs(const void *texels, const int32_t *at) { return pairs_one(texels, (uint32_t)at[0]); }
-static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) { return fetch_four(pieces, at); }
+static inline vi32 v_fetch(const void *base, const int32_t *at) { return fetch_four(base, at); }
 static inline vi32 inserted_lanes(const int32_t a[V_LANES]) { return _mm_setr_epi32(a[0], a[1], a[2], a[3]); }
 #include "kernels/simd/words_narrow.h"
 

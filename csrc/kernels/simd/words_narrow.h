@@ -1,5 +1,5 @@
 /* The vector words that SSE4.1 and AVX2 share beyond words_x86.h: a mask is a vector whose lanes are all ones or 0, and
- * tables lie in memory. A file that includes this one has v_iota, rows_pairs and curve_fetch, too. */
+ * tables lie in memory. A file that includes this one has v_iota, rows_pairs and v_fetch, too. */
 #pragma once
 
 #include "kernels/simd/words_x86.h"

@@ -54,7 +54,7 @@ class Repository:
         else:
             mesh.save(path)
 
-    def run(self, base, patterns=""):
+    def run(self, base, patterns="", folder="../a folder"):
         environment = {
             **os.environ,
             "GITHUB_ACTION_PATH": str(ACTION),
@@ -63,7 +63,7 @@ class Repository:
             "MODELS_BASE": base,
             "MODELS_PATTERNS": patterns,
             "MODELS_SIZE": "{}x{}".format(*SIZE),
-            "MODELS_FOLDER": str(self.outside / "a folder"),
+            "MODELS_FOLDER": folder,
             "MODELS_PYTHON": sys.executable,
         }
         command = ["bash", ACTION / "draw.sh"]
@@ -259,6 +259,7 @@ def test_patterns_choose_the_models(repository, monkeypatch):
         (["two/*.ply"], {"two/a.ply"}),
         (["*/a.ply", "two/deep/b.ply", "!one/*"], two),
         ([":(exclude)*.stl", ":!one"], two),
+        ([":/!one", "!**/*.stl"], two),
         (["!**/*.ply"], {"two/deep/c.stl"}),
         ([], {"one/a.ply", "two/deep/c.stl", *two}),
         (["**/*.txt"], {"two/text.txt"}),
@@ -268,6 +269,17 @@ def test_patterns_choose_the_models(repository, monkeypatch):
     for pattern in ("/two/*.ply", "../x.ply", ":(nonsense)x"):
         with pytest.raises(SystemExit, match="models: git refuses"):
             module.named_models(base, [pattern])
+
+
+def test_nothing_is_written_where_files_of_the_repository_are(repository):
+    repository.write("model-diff/models.json", "{}")
+    repository.write("model-diff/before/kept.txt", "")
+    os.symlink(repository.outside, repository.folder / "linked")
+    base = repository.commit()
+    for folder in ("model-diff", ".", "linked", "linked/out"):
+        done = repository.run(base, folder=folder)
+        assert done.returncode == 1 and "models: name another folder" in done.stderr
+    assert (repository.folder / "model-diff/before/kept.txt").exists()
 
 
 def test_a_pattern_without_files_is_told(repository):
@@ -302,7 +314,9 @@ def test_names_and_links_do_no_harm(repository):
     assert not {"b", "c"} & {path.name for path in repository.folder.iterdir()}
 
 
-@pytest.mark.parametrize("base", ["", "0" * 40, "no-such", "a:b", "--upload-pack=x"])
+@pytest.mark.parametrize(
+    "base", ["", "0" * 40, "no-such", "a:b", "--upload-pack=x", "origin/--upload-pack=x"]
+)
 def test_without_a_commit_the_action_says_so(repository, base):
     repository.commit()
     done = repository.run(base)

@@ -18,7 +18,7 @@ PARTS = {end for item in formats() if item.kind == "image" for end in item.exten
 PARTS |= {".mtl", ".bin"}
 
 
-EXCLUSION = re.compile(r":([!^]|\([^)]*\bexclude\b)")  # of git's words for paths
+EXCLUSION = re.compile(r":(/*[!^]|\((?:[^)]*,)?exclude[,)])")  # of git's words for paths
 
 
 def changed_models(base, named):

@@ -14,12 +14,12 @@ fi
 # Prints the commit that a name or a hash stands for. A checkout holds one commit, unless it was asked
 # for more; others are fetched, which must not cut off a history that is there whole.
 commit_of() {
-    local depth=
-    [[ $1 != -* ]] || return 1
+    local depth= branch=${1#origin/}
+    [[ $1 != -* && $branch != -* ]] || return 1
     git rev-parse --quiet --verify "$1^{commit}" && return
     git check-ref-format --allow-onelevel "$1" || return 1
     [ "$(git rev-parse --is-shallow-repository)" = false ] || depth=--depth=1
-    git fetch --quiet --no-tags $depth origin "${1#origin/}" && git rev-parse --verify "FETCH_HEAD^{commit}"
+    git fetch --quiet --no-tags $depth origin "$branch" && git rev-parse --verify "FETCH_HEAD^{commit}"
 }
 commit=$(commit_of "$base") || { echo "models: no commit to compare with: '$base'" >&2; exit 2; }
 

@@ -11,6 +11,7 @@ Out: in OUT `models.png` (before, after, and what differs, a model in a row), th
 
 import argparse
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -43,6 +44,7 @@ def main():
     parser.add_argument("--size", type=size, required=True)
     parser.add_argument("--patterns", type=lines, default=[])
     arguments = parser.parse_args()
+    check_folder(arguments.folder)
     named = named_models(arguments.base, arguments.patterns)
     names = changed_models(arguments.base, named)
     changes = [change for change in drawn(names[:MOST], arguments) if change.status != "same"]
@@ -53,6 +55,14 @@ def main():
         file.write("\n".join([*table(changes, len(names)), *unused(named)]) + "\n")
     print(f"changed={len(changes)}")
     print(f"broken={sum(change.status == 'broken' for change in changes)}")
+
+
+def check_folder(folder):
+    """Refuse a folder with files of the repository, whose links may lead anywhere."""
+    listed = subprocess.run(["git", "ls-files", "--", folder], capture_output=True).stdout
+    is_linked = not folder.is_absolute() and os.path.realpath(folder) != os.path.abspath(folder)
+    if listed or is_linked:
+        raise SystemExit(f"models: name another folder: files of the repository are in {folder}")
 
 
 def size(text):

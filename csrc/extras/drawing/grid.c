@@ -125,7 +125,7 @@ static size_t count_item(const drw_grid *grid, const double *item, int corners)
     return entries;
 }
 
-e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, size_t count)
+e3d_status drw_grid_fill(drw_grid *grid, drw_items items, size_t count)
 {
     size_t cells = (size_t)grid->columns * (size_t)grid->rows;
     for (size_t cell = 0; cell < cells; cell++)
@@ -134,15 +134,14 @@ e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, 
     if (!grid->items)
         return E3D_OUT_OF_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        int32_t number = order ? order[i] : (int32_t)i;
-        const double *item = items.places + 2 * (size_t)items.corners * (size_t)number;
+        const double *item = items.places + 2 * (size_t)items.corners * i;
         drw_block block = drw_block_of(grid, item, items.corners);
         for (int32_t row = block.rows.first; row <= block.rows.last; row++) {
             drw_span columns = drw_columns(grid, item, items.corners, block, row);
             for (int32_t column = columns.first; column <= columns.last; column++) {
                 size_t cell = cell_at(grid, row, column);
                 if (has_list(grid, cell))
-                    grid->items[grid->starts[cell]++] = number;
+                    grid->items[grid->starts[cell]++] = (int32_t)i;
             }
         }
     }

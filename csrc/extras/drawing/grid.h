@@ -38,8 +38,8 @@ void drw_measure(const double *lines, size_t count, double low[2], double high[2
  * `cells_an_item` cells for each item, fewer if lists become long. */
 e3d_status drw_grid_make(drw_grid *grid, drw_items items, int32_t *order, size_t *count, const double *lines, size_t line_count,
                          const double low[2], const double high[2], double margin, double cells_an_item);
-/* Makes the lists, of the same items in any order; without `order`, of items 0 .. count - 1. */
-e3d_status drw_grid_fill(drw_grid *grid, drw_items items, const int32_t *order, size_t count);
+/* Makes the lists, of items 0 .. count - 1, each in ascending order. */
+e3d_status drw_grid_fill(drw_grid *grid, drw_items items, size_t count);
 void drw_grid_free(drw_grid *grid);
 
 /* The rows and columns of an item's box. */

@@ -147,7 +147,7 @@ static e3d_status list(drw_hiders *all, chosen *some, const double *ends, const 
                                       all->given->reach, CELLS_A_TRIANGLE);
     if (status == E3D_OK)
         status = sort(all, some);
-    return status == E3D_OK ? drw_grid_fill(&all->grid, (drw_items){all->corners, 3}, NULL, all->count) : status;
+    return status == E3D_OK ? drw_grid_fill(&all->grid, (drw_items){all->corners, 3}, all->count) : status;
 }
 
 e3d_status drw_hiders_prepare(drw_hiders *all, const e3d_hiders *given, const e3d_lines *lines)

@@ -109,7 +109,7 @@ e3d_status e3d_hide_repeated(const double *segments, size_t count, double tolera
     if (status == E3D_OK)
         status = drw_grid_make(&job.grid, items, order, &kept, NULL, 0, low, high, tolerance, CELLS_A_SEGMENT);
     if (status == E3D_OK)
-        status = drw_grid_fill(&job.grid, items, order, kept);
+        status = drw_grid_fill(&job.grid, items, count);
     if (status == E3D_OK)
         status = drw_cut_lines(find_stretches, &job, count, count, threads, pieces, found);
     drw_grid_free(&job.grid);

@@ -42,8 +42,6 @@ _NOT_ATTACHED = ("object_id", "unshadowed")
 CASTS_NONE, RECEIVES_NONE = 1, 2
 _LINKS = ("parent", "first_child", "last_child", "next", "previous", "anchor")
 _ROOM = 16
-#: Of a matrix that moves points.
-_LAST_ROW = 0.0, 0.0, 0.0, 1.0
 
 
 class NodeArrays(NativeGraph):
@@ -72,13 +70,6 @@ class NodeArrays(NativeGraph):
         self.nodes.append(node)
         self.columns["object_id"][slot] = identity
         return slot
-
-    def world_pose(self, slot: int) -> np.ndarray:
-        """Return world-from-node of one slot, (4, 4) float64, as of the last update."""
-        pose = np.empty((4, 4))
-        pose[:3].reshape(-1)[:] = self.columns["world"][slot]
-        pose[3] = _LAST_ROW
-        return pose
 
     def world_poses(self, slots: np.ndarray) -> np.ndarray:
         """Return world-from-node of given slots, (N, 4, 4) float64, as of the last update."""

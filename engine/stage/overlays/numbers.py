@@ -112,7 +112,7 @@ class Marks(NamedTuple):
 
 
 NO_MARKS = Marks(None, False, False)
-_NAMES = frozenset(MarkKeywords.__annotations__)
+_NAMES = MarkKeywords.__annotations__.keys()
 
 
 def take_marks(keywords: dict[str, Any]) -> Marks:
